@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: The Waylode authors
+# SPDX-License-Identifier: Apache-2.0
+# waylode_module(<name> SOURCES <files> HEADERS <files> [TESTS <files>] [DEPENDS <modules>]
+#                [LIBRARIES <public targets>] [PRIVATE_LIBRARIES <targets>])
+# makes waylode_<name>, alias waylode::<name>, and, with tests on, the program <name>_test.
+# DEPENDS is the module's row of the allowed-include table in ARCHITECTURE.md.
+function(waylode_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS;TESTS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  set(target waylode_${name})
+  list(TRANSFORM arg_DEPENDS PREPEND waylode::)
+  if(arg_SOURCES)
+    add_library(${target} STATIC ${arg_SOURCES})
+    set(visibility PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:waylode_warnings> ${arg_PRIVATE_LIBRARIES})
+  else()
+    add_library(${target} INTERFACE)
+    set(visibility INTERFACE)
+  endif()
+  add_library(waylode::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_sources(${target} ${visibility} FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR}/engine FILES ${arg_HEADERS})
+  target_compile_features(${target} ${visibility} cxx_std_20)
+  target_link_libraries(${target} ${visibility} ${arg_DEPENDS} ${arg_LIBRARIES})
+  install(TARGETS ${target} EXPORT waylode_targets FILE_SET HEADERS)
+  if(WAYLODE_TESTS AND arg_TESTS)
+    add_executable(${name}_test ${arg_TESTS})
+    target_link_libraries(${name}_test PRIVATE
+      ${target} waylode_test_support waylode_warnings ${arg_PRIVATE_LIBRARIES} GTest::gmock GTest::gtest_main)
+    gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}." PROPERTIES LABELS fast)
+  endif()
+endfunction()

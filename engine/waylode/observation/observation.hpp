@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "waylode/core/geometry.hpp"
+#include "waylode/core/id.hpp"
+#include "waylode/core/time.hpp"
+
+/// What the estimators tell fusion. Plain values; fusion sees nothing else.
+namespace waylode::observation {
+
+/// One step (or a stretch of standing, length 0). Headings are counter-clockwise from true east as
+/// far as the phone knows: a constant offset (how it is held, declination, plan rotation) remains.
+struct MotionDelta {
+  core::DeviceTime begin;
+  core::DeviceTime end;
+  double length_m = 0.0;
+  double heading_rad = 0.0;
+  double length_sigma_m = 0.0;     ///< Random part only; a constant scale error remains.
+  double heading_sigma_rad = 0.0;  ///< Random part only, drift since the previous delta included.
+
+  bool operator==(const MotionDelta&) const = default;
+};
+
+/// A surveyed place that resembles what was heard.
+struct RadioCandidate {
+  core::Vector2 position_m = core::Vector2::Zero();  ///< Floor frame.
+  double weight = 0.0;                               ///< Sums to one within a floor.
+
+  bool operator==(const RadioCandidate&) const = default;
+};
+
+/// What one radio scan says, if the person is on this floor.
+struct FloorHypothesis {
+  core::FloorId floor;
+  double log_likelihood = 0.0;  ///< Of the floor, up to a constant common to all floors.
+  core::Vector2 position_m = core::Vector2::Zero();         ///< Floor frame.
+  core::Matrix2 covariance_m2 = core::Matrix2::Identity();  ///< Floor frame; error of position_m.
+  std::vector<RadioCandidate> candidates;
+
+  bool operator==(const FloorHypothesis&) const = default;
+};
+
+/// A scan matched against the radio map. Hypotheses by falling log_likelihood; never empty.
+struct RadioObservation {
+  core::DeviceTime measured;  ///< When the signals were in the air, not when they were delivered.
+  core::DeviceTime delivered;
+  double known_share_ratio = 0.0;  ///< Share of the signal that the radio map knows, 0 to 1.
+  std::vector<FloorHypothesis> floors;
+
+  bool operator==(const RadioObservation&) const = default;
+};
+
+}  // namespace waylode::observation
