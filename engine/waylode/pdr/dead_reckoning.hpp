@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "waylode/core/result.hpp"
+#include "waylode/observation/observation.hpp"
+#include "waylode/pdr/gravity_filter.hpp"
+#include "waylode/pdr/heading_filter.hpp"
+#include "waylode/pdr/step_detector.hpp"
+#include "waylode/pdr/stride_model.hpp"
+#include "waylode/sample/sample.hpp"
+
+namespace waylode::pdr {
+
+/// Pedestrian dead reckoning: motion-sensor samples in, one MotionDelta per step out, causally.
+class DeadReckoning {
+ public:
+  struct Options {
+    GravityFilter::Options gravity;
+    HeadingFilter::Options heading;
+    StepDetector::Options step;
+    StrideModel::Options stride;
+    double step_heading_sigma_rad = 0.08;   ///< Sway and drift from one step to the next.
+    double step_length_sigma_ratio = 0.10;  ///< Step-to-step variation around the person's mean.
+
+    core::Result<void> validate() const;
+    bool operator==(const Options&) const = default;
+  };
+
+  explicit DeadReckoning(const Options& options);
+
+  /// Samples in order of time; kinds that do not concern it are passed over. A step is told when it
+  /// is confirmed, a fraction of a second after its peak.
+  std::optional<observation::MotionDelta> add(const sample::Sample& sample);
+
+ private:
+  std::optional<observation::MotionDelta> add_accelerometer(
+      const sample::AccelerometerSample& sample);
+  observation::MotionDelta motion_of(const Step& step);
+
+  Options options_;
+  GravityFilter gravity_;
+  HeadingFilter heading_;
+  StepDetector steps_;
+  StrideModel stride_;
+  /// Mean direction of the phone since the last step.
+  core::Vector2 heading_sum_ = core::Vector2::Zero();
+};
+
+}  // namespace waylode::pdr

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/pdr/step_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "waylode/core/angle.hpp"
+
+namespace waylode::pdr {
+
+core::Result<void> StepDetector::Options::validate() const {
+  const bool sound = low_pass_hz > 0.0 && min_peak_mps2 > 0.0 && relative_peak_ratio >= 0.0 &&
+                     relative_peak_ratio < 1.0 && shortest_interval_s > 0.0 &&
+                     longest_interval_s > shortest_interval_s;
+  if (!sound) {
+    return core::fail(
+        core::ErrorCode::kInvalidOptions,
+        "need positive values, relative_peak_ratio < 1 and longest > shortest interval",
+        "step_detector");
+  }
+  return {};
+}
+
+std::optional<Step> StepDetector::add(core::DeviceTime time, double vertical_mps2) {
+  const double value_mps2 = smooth(time, vertical_mps2);
+  lowest_mps2_ = std::min(lowest_mps2_, value_mps2);
+  abs_sum_mps2_ += std::abs(value_mps2);
+  ++count_;
+  if (value_mps2 > peak_mps2_) {
+    peak_mps2_ = value_mps2;
+    peak_time_ = time;
+  }
+  if (value_mps2 > 0.0) return std::nullopt;
+
+  const double threshold_mps2 =
+      std::max(options_.min_peak_mps2, options_.relative_peak_ratio * recent_peak_mps2_);
+  const bool high_enough = peak_mps2_ >= threshold_mps2;
+  const bool late_enough =
+      !last_step_ || core::to_seconds(peak_time_ - *last_step_) >= options_.shortest_interval_s;
+  if (high_enough && late_enough) return take_step();
+  peak_mps2_ = 0.0;
+  return std::nullopt;
+}
+
+double StepDetector::smooth(core::DeviceTime time, double vertical_mps2) {
+  const double dt_s = last_sample_ ? core::to_seconds(time - *last_sample_) : 0.0;
+  const bool gap = !last_sample_ || dt_s > options_.longest_interval_s;
+  last_sample_ = time;
+  if (gap) {
+    stage_one_mps2_ = stage_two_mps2_ = vertical_mps2;
+    peak_mps2_ = 0.0;
+    return vertical_mps2;
+  }
+  // Two first-order stages: the phase is nearly linear below the cut-off.
+  const double gain = 1.0 - std::exp(-2.0 * core::kPi * options_.low_pass_hz * dt_s);
+  stage_one_mps2_ += gain * (vertical_mps2 - stage_one_mps2_);
+  stage_two_mps2_ += gain * (stage_one_mps2_ - stage_two_mps2_);
+  return stage_two_mps2_;
+}
+
+Step StepDetector::take_step() {
+  const bool walking =
+      last_step_ && core::to_seconds(peak_time_ - *last_step_) <= options_.longest_interval_s;
+  Step step;
+  step.time = peak_time_;
+  step.swing_mps2 = peak_mps2_ - lowest_mps2_;
+  step.mean_abs_mps2 = abs_sum_mps2_ / static_cast<double>(count_);
+  step.interval_s =
+      walking ? core::to_seconds(peak_time_ - *last_step_) : options_.longest_interval_s;
+  constexpr double kForget = 0.25;  // Share of the newest peak in the running mean.
+  recent_peak_mps2_ =
+      walking ? recent_peak_mps2_ + kForget * (peak_mps2_ - recent_peak_mps2_) : peak_mps2_;
+  last_step_ = peak_time_;
+  lowest_mps2_ = 0.0;
+  peak_mps2_ = 0.0;
+  abs_sum_mps2_ = 0.0;
+  count_ = 0;
+  return step;
+}
+
+}  // namespace waylode::pdr

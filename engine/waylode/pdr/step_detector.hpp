@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "waylode/core/result.hpp"
+#include "waylode/core/time.hpp"
+
+namespace waylode::pdr {
+
+/// One footfall.
+struct Step {
+  core::DeviceTime time;       ///< Of the acceleration's peak.
+  double swing_mps2 = 0.0;     ///< Largest less smallest vertical acceleration within the step.
+  double mean_abs_mps2 = 0.0;  ///< Mean |linear vertical acceleration| within the step.
+  double interval_s = 0.0;     ///< Since the previous step, capped at `longest_interval_s`.
+};
+
+/// Finds footfalls in the vertical acceleration as it streams, with no look ahead: a peak is a step
+/// once the signal has fallen back through zero. The threshold follows the walker's own peaks.
+class StepDetector {
+ public:
+  struct Options {
+    double low_pass_hz = 3.0;          ///< Cut-off of the smoothing; cadence is below 3 Hz.
+    double min_peak_mps2 = 0.55;       ///< Lower peaks are never steps.
+    double relative_peak_ratio = 0.4;  ///< Of the recent peaks, what a new one must reach.
+    double shortest_interval_s = 0.28;
+    double longest_interval_s = 1.2;  ///< A longer pause starts a new walk.
+
+    core::Result<void> validate() const;
+    bool operator==(const Options&) const = default;
+  };
+
+  explicit StepDetector(const Options& options) : options_(options) {}
+
+  /// `vertical_mps2`: acceleration along up with gravity taken off. Times must not decrease.
+  std::optional<Step> add(core::DeviceTime time, double vertical_mps2);
+
+ private:
+  double smooth(core::DeviceTime time, double vertical_mps2);
+  Step take_step();
+
+  Options options_;
+  std::optional<core::DeviceTime> last_sample_;
+  double stage_one_mps2_ = 0.0;
+  double stage_two_mps2_ = 0.0;
+  double recent_peak_mps2_ = 0.0;
+  std::optional<core::DeviceTime> last_step_;
+  // Extremes since the last step, and the peak that waits for its confirmation.
+  double lowest_mps2_ = 0.0;
+  double peak_mps2_ = 0.0;
+  core::DeviceTime peak_time_;
+  double abs_sum_mps2_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace waylode::pdr

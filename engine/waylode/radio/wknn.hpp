@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "waylode/core/result.hpp"
+#include "waylode/observation/observation.hpp"
+#include "waylode/radio/matcher.hpp"
+#include "waylode/radio/scan_assembler.hpp"
+
+namespace waylode::radio {
+
+/// Weighted k nearest neighbours: a scan becomes, for every floor, a weighted mean of surveyed
+/// places, its error covariance, and the floor's likelihood.
+class WknnEstimator {
+ public:
+  struct Options {
+    std::size_t neighbours = 12;        ///< k, 1 to 200.
+    std::size_t floor_neighbours = 12;  ///< Nearest over all floors that vote for theirs.
+    double weight_exponent = 4.0;       ///< Weight = (d_nearest / d)^exponent.
+    /// Error covariance = base^2 I + spread_gain * weighted scatter of the neighbours.
+    double base_sigma_m = 3.0;
+    double spread_gain = 1.0;
+    std::size_t min_readings = 3;  ///< Scans with fewer say too little to be used.
+
+    core::Result<void> validate() const;
+    bool operator==(const Options&) const = default;
+  };
+
+  /// `matcher` must outlive the estimator.
+  WknnEstimator(const Matcher& matcher, const Options& options)
+      : matcher_(&matcher), options_(options) {}
+
+  /// nullopt when the scan has too few readings or shares none with the map.
+  std::optional<observation::RadioObservation> estimate(
+      const Query& query, std::optional<core::FloorId> known_floor = std::nullopt) const;
+
+ private:
+  const Matcher* matcher_;
+  Options options_;
+};
+
+}  // namespace waylode::radio
