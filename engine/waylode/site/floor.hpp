@@ -33,8 +33,8 @@ struct Room {
 
 /// What is drawn on a floor. Empty members mean "not known", never "nothing there".
 struct Plan {
-  std::vector<Polygon> walkable;   ///< Where people can be: outlines minus obstacles.
-  std::vector<Polygon> obstacles;  ///< Shops, shafts, blocks as drawn.
+  std::vector<Polygon> walkable;   ///< Outlines: where people can be unless an obstacle is there.
+  std::vector<Polygon> obstacles;  ///< Shops, shafts, blocks as drawn; they win over `walkable`.
   std::vector<Wall> walls;
   std::vector<Room> rooms;
   bool operator==(const Plan&) const = default;

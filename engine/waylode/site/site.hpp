@@ -38,6 +38,9 @@ class Site {
   /// `parts.radio_map` is ignored.
   Site(SiteParts parts, RadioMap radio_map, std::shared_ptr<const void> keep_alive,
        std::uint64_t version);
+  // The radio map views storage inside: moving keeps it in place, copying would not.
+  Site(Site&&) = default;
+  Site& operator=(Site&&) = default;
 
   const std::string& name() const { return parts_.name; }
   const std::vector<Floor>& floors() const { return parts_.floors; }

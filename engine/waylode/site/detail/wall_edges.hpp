@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "waylode/site/floor.hpp"
+
+namespace waylode::site::detail {
+
+/// The edges of the plan's walkable areas and obstacles. An edge that neighbours share (ends equal
+/// to a millimetre, either direction) comes once, where it is first met.
+std::vector<Wall> edges_of(const Plan& plan);
+
+}  // namespace waylode::site::detail
