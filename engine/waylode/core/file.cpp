@@ -11,6 +11,8 @@
 #include <cstring>
 #include <utility>
 
+#include "waylode/core/atomic_file_writer.hpp"
+
 namespace waylode::core {
 namespace {
 
@@ -23,7 +25,6 @@ class FileDescriptor {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
   int get() const { return descriptor_; }
-  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
 
  private:
   int descriptor_;
@@ -35,23 +36,6 @@ tl::unexpected<Error> fail_reading(const std::filesystem::path& path, int error_
   }
   return fail(ErrorCode::kFileUnreadable,
               std::string("cannot be read (") + std::strerror(error_number) + ")", path.string());
-}
-
-tl::unexpected<Error> fail_writing(const std::filesystem::path& path, int error_number) {
-  const char* remedy = error_number == ENOSPC ? "; free some space" : "; check folder and rights";
-  return fail(ErrorCode::kFileUnwritable,
-              std::string("cannot be written (") + std::strerror(error_number) + ")" + remedy,
-              path.string());
-}
-
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 /// Opens a regular file for reading and tells its size.
@@ -87,19 +71,9 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 }
 
 Result<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  std::string temporary = path.string() + ".XXXXXX";
-  FileDescriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.get() < 0) return fail_writing(path, errno);
-  constexpr mode_t kEveryoneReads = 0644;
-  const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), kEveryoneReads) == 0 &&
-                       ::fsync(file.get()) == 0 && file.close() &&
-                       ::rename(temporary.c_str(), path.c_str()) == 0;
-  if (!written) {
-    const int error_number = errno;
-    ::unlink(temporary.c_str());
-    return fail_writing(path, error_number);
-  }
-  return {};
+  return AtomicFileWriter::create(path).and_then([bytes](AtomicFileWriter&& writer) {
+    return writer.write(bytes).and_then([&writer] { return writer.commit(); });
+  });
 }
 
 Result<MemoryMappedFile> MemoryMappedFile::open(const std::filesystem::path& path) {
