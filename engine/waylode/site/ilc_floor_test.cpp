@@ -123,6 +123,7 @@ TEST(IlcFloor, ReadsTheCompetitionsFloors) {
       const FloorDraft draft = read_floor(*root / "ilc" / site / floor);
       EXPECT_GE(draft.floor.plan.walkable.size(), 1U) << site << floor;
       EXPECT_GE(draft.floor.plan.obstacles.size(), 100U) << site << floor;
+      EXPECT_TRUE(draft.notes.empty()) << draft.notes.front();
       // Published: plan size and geographic box agree within 2 m.
       const Vector2 box_m =
           draft.enu_from_floor.linear.diagonal().cwiseProduct(draft.floor.bounds.size_m());
