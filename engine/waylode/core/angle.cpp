@@ -18,7 +18,9 @@ double heading_from_azimuth(double azimuth_rad) { return wrap_angle(kPi / 2.0 - 
 
 double azimuth_from_heading(double heading_rad) {
   const double azimuth_rad = wrap_angle(kPi / 2.0 - heading_rad);
-  return azimuth_rad < 0.0 ? azimuth_rad + 2.0 * kPi : azimuth_rad;
+  if (azimuth_rad >= 0.0) return azimuth_rad;
+  const double positive_rad = azimuth_rad + 2.0 * kPi;
+  return positive_rad < 2.0 * kPi ? positive_rad : 0.0;  // The sum may round up to a full turn.
 }
 
 std::optional<CircularMean> circular_mean(std::span<const double> angles_rad,
@@ -37,7 +39,7 @@ std::optional<CircularMean> circular_mean(std::span<const double> angles_rad,
   const double resultant_ratio = std::hypot(sine_sum, cosine_sum) / weight_sum;
   constexpr double kCancelledRatio = 1e-9;  // Below this the direction is rounding noise.
   if (resultant_ratio < kCancelledRatio) return std::nullopt;
-  return CircularMean{std::atan2(sine_sum, cosine_sum), resultant_ratio};
+  return CircularMean{wrap_angle(std::atan2(sine_sum, cosine_sum)), resultant_ratio};
 }
 
 }  // namespace waylode::core

@@ -22,7 +22,7 @@ double heading_from_azimuth(double azimuth_rad);
 double azimuth_from_heading(double heading_rad);
 
 struct CircularMean {
-  double mean_rad = 0.0;
+  double mean_rad = 0.0;         ///< In (-pi, pi].
   double resultant_ratio = 0.0;  ///< Mean resultant length: 1 all agree, 0 no direction at all.
 };
 

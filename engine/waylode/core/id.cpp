@@ -65,7 +65,8 @@ std::optional<TransmitterId> parse_transmitter_id(std::string_view text) {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-    return TransmitterId::column(number);
+    const TransmitterId id = TransmitterId::column(number);
+    return id.address48() == number ? std::optional(id) : std::nullopt;
   }
   const auto address = parse_mac(text);
   return address ? std::optional(TransmitterId::wifi(*address)) : std::nullopt;

@@ -24,49 +24,50 @@ using core::Vector3;
 
 struct AccelerometerSample {
   DeviceTime time;
-  Vector3 specific_force_mps2;  ///< Gravity included: +9.81 on z when lying face up.
+  Vector3 specific_force_mps2 =
+      Vector3::Zero();  ///< Gravity included: +9.81 on z when lying face up.
   bool operator==(const AccelerometerSample&) const = default;
 };
 
 struct GyroscopeSample {
   DeviceTime time;
-  Vector3 angular_rate_radps;
+  Vector3 angular_rate_radps = Vector3::Zero();
   bool operator==(const GyroscopeSample&) const = default;
 };
 
 struct MagnetometerSample {
   DeviceTime time;
-  Vector3 field_ut;           ///< Calibrated by the phone.
-  std::int8_t accuracy = -1;  ///< Android 0 (unreliable) to 3; -1 not told.
+  Vector3 field_ut = Vector3::Zero();  ///< Calibrated by the phone.
+  std::int8_t accuracy = -1;           ///< Android 0 (unreliable) to 3; -1 not told.
   bool operator==(const MagnetometerSample&) const = default;
 };
 
 /// Raw readings beside the phone's estimate of its own bias; calibrated = raw - bias.
 struct UncalibratedAccelerometerSample {
   DeviceTime time;
-  Vector3 specific_force_mps2;
-  Vector3 bias_mps2;
+  Vector3 specific_force_mps2 = Vector3::Zero();
+  Vector3 bias_mps2 = Vector3::Zero();
   bool operator==(const UncalibratedAccelerometerSample&) const = default;
 };
 
 struct UncalibratedGyroscopeSample {
   DeviceTime time;
-  Vector3 angular_rate_radps;
-  Vector3 bias_radps;
+  Vector3 angular_rate_radps = Vector3::Zero();
+  Vector3 bias_radps = Vector3::Zero();
   bool operator==(const UncalibratedGyroscopeSample&) const = default;
 };
 
 struct UncalibratedMagnetometerSample {
   DeviceTime time;
-  Vector3 field_ut;
-  Vector3 bias_ut;
+  Vector3 field_ut = Vector3::Zero();
+  Vector3 bias_ut = Vector3::Zero();
   bool operator==(const UncalibratedMagnetometerSample&) const = default;
 };
 
 /// The phone's own attitude: rotates device-frame vectors into (magnetic east, magnetic north, up).
 struct RotationSample {
   DeviceTime time;
-  core::Quaternion enu_from_device;
+  core::Quaternion enu_from_device = core::Quaternion::Identity();
   bool operator==(const RotationSample& other) const {
     return time == other.time && enu_from_device.coeffs() == other.enu_from_device.coeffs();
   }
@@ -145,7 +146,7 @@ struct RecordingInfo {
 struct FingerprintRow {
   std::string building;
   std::string floor;
-  Vector2 position_m;
+  Vector2 position_m = Vector2::Zero();
   std::vector<WifiReading> readings;  ///< Heard ones only.
   bool operator==(const FingerprintRow&) const = default;
 };
