@@ -34,7 +34,7 @@ asan: setup-test ## Run the fast tests under the address and undefined-behaviour
 	@$(call preset,asan) && ctest --preset asan
 
 lint: setup-test ## Check format, layers, documentation and changed code (ALL=1: all code)
-	@cmake --preset ci >/dev/null && tools/lint.sh $(if $(ALL),--all)
+	@$(call preset,ci) && tools/lint.sh $(if $(ALL),--all)
 
 fix: setup-test ## Format every source file
 	@tools/lint.sh --fix

@@ -7,10 +7,12 @@
 function(waylode_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;HEADERS;TESTS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(target waylode_${name})
+  set_property(GLOBAL APPEND PROPERTY WAYLODE_MODULES ${name})
   list(TRANSFORM arg_DEPENDS PREPEND waylode::)
   if(arg_SOURCES)
     add_library(${target} STATIC ${arg_SOURCES})
     set(visibility PUBLIC)
+    set_property(GLOBAL APPEND PROPERTY WAYLODE_STATIC_LIBRARIES ${target})
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:waylode_warnings> ${arg_PRIVATE_LIBRARIES})
   else()
     add_library(${target} INTERFACE)
@@ -26,7 +28,9 @@ function(waylode_module name)
   if(WAYLODE_TESTS AND arg_TESTS)
     add_executable(${name}_test ${arg_TESTS})
     target_link_libraries(${name}_test PRIVATE
-      ${target} waylode_test_support waylode_warnings ${arg_PRIVATE_LIBRARIES} GTest::gmock GTest::gtest_main)
-    gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}." PROPERTIES LABELS fast)
+      ${target} waylode_test_support waylode_warnings ${arg_PRIVATE_LIBRARIES} GTest::gmock GTest::gtest_main
+      rapidcheck_gtest)
+    gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+      PROPERTIES LABELS fast ENVIRONMENT "RC_PARAMS=seed=20240501")  # Properties repeat themselves.
   endif()
 endfunction()

@@ -20,7 +20,7 @@ for lock in "$root"/tests/interop/*/package-lock.json; do
   [ -e "$lock" ] || continue
   folder=$(dirname "$lock")
   installed="$folder/node_modules/.package-lock.json"
-  if [ ! -e "$installed" ] || [ "$lock" -nt "$installed" ]; then
+  if [ ! -e "$installed" ] || [ -n "$(find "$lock" -newer "$installed")" ]; then
     "$tools/node.sh" npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts
     touch "$installed"
   fi
