@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "waylode/core/fix.hpp"
+#include "waylode/fusion/floor_filter.hpp"
+#include "waylode/fusion/planar_tracker.hpp"
+#include "waylode/observation/observation.hpp"
+#include "waylode/site/site.hpp"
+
+namespace waylode::fusion {
+
+/// When a belief is good enough to show.
+struct StateRules {
+  double ok_radius_m = 15.0;        ///< 95 % region's semi-major axis up to which the state is ok.
+  double show_radius_m = 40.0;      ///< Beyond this the position is unknown.
+  double floor_probability = 0.8;   ///< Less, and the state is low_confidence at best.
+  double known_share_ratio = 0.35;  ///< Less of the signal known: off the surveyed area.
+
+  core::Result<void> validate() const;
+  bool operator==(const StateRules&) const = default;
+};
+
+core::FixState state_of(const core::Belief& belief, double known_share_ratio,
+                        const StateRules& rules);
+
+/// A radio position on one floor, carried to the site frame.
+PlanarMeasurement to_site_frame(const site::Site& site,
+                                const observation::RadioObservation& observation,
+                                const observation::FloorHypothesis& hypothesis);
+/// A site-frame state as a belief on a floor.
+core::Belief to_floor_frame(const site::Site& site, core::FloorId floor, double probability,
+                            const PlanarState& state);
+/// The hypothesis of a floor, or null.
+const observation::FloorHypothesis* find_hypothesis(
+    const observation::RadioObservation& observation, core::FloorId floor);
+/// A step with its heading on the site frame, as far as the survey learnt it.
+observation::MotionDelta on_site_frame(const observation::MotionDelta& motion,
+                                       const site::Floor& floor);
+
+/// The causal tracker: floor by vote, place by the robust filter. One phone, one tracker.
+class FusedTracker {
+ public:
+  struct Options {
+    PlanarTracker::Options planar;
+    FloorFilter::Options floor;
+    StateRules state;
+
+    core::Result<void> validate() const;
+    bool operator==(const Options&) const = default;
+  };
+
+  FusedTracker(std::shared_ptr<const site::Site> site, const Options& options,
+               std::optional<core::FloorId> known_floor, bool keep_history = false);
+
+  /// Starts from a place instead of the first scan.
+  void start(core::DeviceTime time, core::FloorId floor, const core::Vector2& position_m,
+             double sigma_m);
+  void add(const observation::MotionDelta& motion);
+  void add(const observation::RadioObservation& observation);
+
+  /// nullopt before anything is known. `time` is not before the last event.
+  std::optional<core::Belief> belief_at(core::DeviceTime time) const;
+  core::FixState state_for(const core::Belief& belief) const;
+
+  const PlanarTracker& planar() const { return planar_; }
+  PlanarTracker& planar() { return planar_; }
+  std::optional<core::FloorId> floor() const;
+  double floor_probability() const;
+
+ private:
+  std::shared_ptr<const site::Site> site_;
+  Options options_;
+  std::optional<core::FloorId> known_floor_;
+  FloorFilter floor_filter_;
+  PlanarTracker planar_;
+  double known_share_ratio_ = 1.0;
+};
+
+}  // namespace waylode::fusion

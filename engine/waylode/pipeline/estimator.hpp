@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "waylode/core/fix.hpp"
+#include "waylode/observation/observation.hpp"
+#include "waylode/pipeline/session.hpp"
+
+namespace waylode::pipeline {
+
+/// What a method does with steps and scans. The session feeds it; methods differ only here.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  virtual void add(const observation::MotionDelta& motion) = 0;
+  virtual void add(const observation::RadioObservation& observation) = 0;
+  virtual std::optional<core::Belief> belief_at(core::DeviceTime time) const = 0;
+  virtual core::FixState state_for(const core::Belief& belief) const = 0;
+};
+
+/// `method` is registered and `options` suit it.
+std::unique_ptr<Estimator> make_estimator(const Model& model, const Method& method,
+                                          const SessionOptions& options);
+
+}  // namespace waylode::pipeline

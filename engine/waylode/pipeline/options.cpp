@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/pipeline/options.hpp"
+
+namespace waylode::pipeline {
+
+core::Result<void> Options::validate() const {
+  for (const core::Result<void>& part :
+       {scan.validate(), matcher.validate(), wknn.validate(), survey_options().validate(),
+        smoothing_options().validate()}) {
+    if (!part) return part;
+  }
+  return {};
+}
+
+}  // namespace waylode::pipeline

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/survey/map_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "waylode/core/angle.hpp"
+#include "waylode/survey/quality.hpp"
+
+namespace waylode::survey {
+namespace {
+
+std::vector<observation::MotionDelta> steps_of(const SurveyedRecording& recording,
+                                               const pdr::DeadReckoning::Options& options) {
+  pdr::DeadReckoning reckoning(options);
+  std::vector<observation::MotionDelta> steps;
+  for (const sample::Sample& sample : recording.samples) {
+    if (const auto step = reckoning.add(sample)) steps.push_back(*step);
+  }
+  return steps;
+}
+
+}  // namespace
+
+core::Result<void> MapBuilder::Options::validate() const {
+  for (const core::Result<void>& part :
+       {scan.validate(), pdr.validate(), labels.validate(), moving.validate()}) {
+    if (!part) return part;
+  }
+  return {};
+}
+
+MapBuilder::MapBuilder(site::SiteParts parts, const Options& options)
+    : parts_(std::move(parts)),
+      site_(std::make_shared<site::Site>(
+          site::SiteParts{parts_.name, parts_.origin, parts_.floors, {}})),
+      options_(options),
+      moving_(options.moving),
+      stretches_(parts_.floors.size()),
+      recordings_on_floor_(parts_.floors.size()) {}
+
+void MapBuilder::add(const SurveyedRecording& recording) {
+  const std::vector<PlacedWaypoint> waypoints =
+      place_waypoints(*site_, recording.samples, recording.default_floor);
+  if (waypoints.size() < 2) {
+    quality_.notes.push_back(recording.name + ": fewer than two marks on a known floor; not used");
+    return;
+  }
+  SurveyedRecording own = recording;
+  drop_readings_before(own.samples, waypoints.front().time);
+  const LabelledPath path(options_.labels, waypoints, steps_of(own, options_.pdr));
+  note_stretches(path);
+
+  const std::size_t instances_before = instances_.size();
+  std::set<std::pair<core::TransmitterId, core::DeviceTime>> heard;
+  radio::ScanAssembler assembler(options_.scan);
+  for (sample::Sample& sample : own.samples) {
+    if (const auto* advertisement = std::get_if<sample::BleReading>(&sample)) {
+      assembler.add(*advertisement);
+    } else if (auto* scan = std::get_if<sample::WifiScan>(&sample)) {
+      quality_.readings_unmappable += std::erase_if(
+          scan->readings, [](const auto& reading) { return asks_not_to_be_mapped(reading.ssid); });
+      quality_.readings_duplicate += std::erase_if(scan->readings, [&](const auto& reading) {
+        return heard_before_.contains({reading.transmitter, reading.last_seen});
+      });
+      for (const auto& reading : scan->readings) {
+        heard.emplace(reading.transmitter, reading.last_seen);
+      }
+      add_scan(assembler.assemble(*scan), *scan, path);
+    }
+  }
+  heard_before_.merge(heard);
+  ++recording_count_;
+  if (instances_.size() == instances_before) {
+    quality_.notes.push_back(recording.name + ": no usable Wi-Fi between its marks");
+  }
+}
+
+void MapBuilder::add(const sample::FingerprintRow& row, core::FloorId floor) {
+  Instance instance;
+  instance.record.floor = floor.index;
+  instance.record.x_m = static_cast<float>(row.position_m.x());
+  instance.record.y_m = static_cast<float>(row.position_m.y());
+  instance.record.position_sigma_m = static_cast<float>(options_.labels.mark_sigma_m);
+  instance.record.recording = recording_count_++;
+  for (const sample::WifiReading& reading : row.readings) {
+    instance.readings.push_back({reading.transmitter, reading.rssi_dbm, 0.0F});
+  }
+  recordings_on_floor_[floor.index].insert(instance.record.recording);
+  if (!instance.readings.empty()) instances_.push_back(std::move(instance));
+}
+
+void MapBuilder::add_scan(const radio::Query& query, const sample::WifiScan& scan,
+                          const LabelledPath& path) {
+  if (query.readings.empty()) return;
+  const std::optional<Label> label = path.at(query.measured);
+  if (!label) {
+    ++quality_.scans_unlabelled;
+    return;
+  }
+  Instance instance;
+  instance.record.floor = label->floor.index;
+  instance.record.x_m = static_cast<float>(label->position_m.x());
+  instance.record.y_m = static_cast<float>(label->position_m.y());
+  instance.record.position_sigma_m = static_cast<float>(label->sigma_m);
+  instance.record.recording = recording_count_;
+  for (const radio::QueryReading& reading : query.readings) {
+    instance.readings.push_back({reading.transmitter, reading.rssi_dbm, reading.age_s});
+  }
+  for (const sample::WifiReading& reading : scan.readings) {
+    if (const auto place = path.at(reading.last_seen)) {
+      moving_.hear(reading.transmitter, reading.ssid, reading.rssi_dbm, place->floor,
+                   place->position_m);
+    }
+  }
+  recordings_on_floor_[label->floor.index].insert(recording_count_);
+  instances_.push_back(std::move(instance));
+}
+
+void MapBuilder::note_stretches(const LabelledPath& path) {
+  for (const LabelledPath::Stretch& stretch : path.stretches()) {
+    ++quality_.stretches;
+    if (stretch.rejected) {
+      ++quality_.stretches_rejected;
+      continue;
+    }
+    if (!stretch.shaped) ++quality_.stretches_straight;
+    stretches_[stretch.floor.index].push_back(stretch);
+  }
+}
+
+void MapBuilder::learn_headings() {
+  std::vector<LabelledPath::Stretch> all;
+  for (const auto& floor : stretches_) all.insert(all.end(), floor.begin(), floor.end());
+  const std::optional<double> site_offset = heading_offset(all);
+  for (std::size_t i = 0; i < parts_.floors.size(); ++i) {
+    const std::optional<double> own = heading_offset(stretches_[i]);
+    const double turn_rad = own.value_or(site_offset.value_or(0.0));
+    // Marks are on the floor frame; headings are on the site frame.
+    const core::Vector2 axis = parts_.floors[i].site_from_floor.linear.col(0);
+    parts_.floors[i].heading_offset_rad =
+        core::wrap_angle(turn_rad + std::atan2(axis.y(), axis.x()));
+  }
+}
+
+core::Result<SurveyedSite> MapBuilder::build() {
+  if (instances_.empty()) {
+    std::string why = quality_.notes.empty() ? "no recording was given" : quality_.notes.front();
+    return core::fail(core::ErrorCode::kSurveyInsufficient,
+                      "no fingerprint could be made (" + why +
+                          "); survey with Wi-Fi on and mark at least two places per walk",
+                      parts_.name);
+  }
+  learn_headings();
+  SurveyedSite result{parts_, quality_};
+  result.parts.radio_map = freeze_radio_map(result.quality);
+  result.quality.floors = floor_quality(result.parts, stretches_, recordings_on_floor_);
+  return result;
+}
+
+site::RadioMapStorage MapBuilder::freeze_radio_map(QualityReport& quality) const {
+  site::RadioMapBuilder builder;
+  std::set<core::TransmitterId> moving;
+  for (const Instance& instance : instances_) {
+    std::vector<site::MapReading> readings;
+    for (const site::MapReading& reading : instance.readings) {
+      if (moving_.is_moving(reading.transmitter)) {
+        moving.insert(reading.transmitter);
+      } else {
+        readings.push_back(reading);
+      }
+    }
+    if (!readings.empty()) builder.add(instance.record, std::move(readings));
+  }
+  quality.transmitters_moving = moving.size();
+  return builder.build();
+}
+
+}  // namespace waylode::survey
