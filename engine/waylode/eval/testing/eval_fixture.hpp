@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "waylode/eval/evaluated_track.hpp"
 
@@ -37,5 +39,9 @@ inline core::Fix fix_at(double time_s, core::FloorId floor, const core::Vector2&
   fix.belief = core::Belief{floor, 1.0, position_m, core::Matrix2::Identity()};
   return fix;
 }
+
+/// Simulated walks through a two-storey block of shops, each tracked by three invented methods of
+/// different accuracy, floor sense and honesty. The same every time.
+std::vector<EvaluatedTrack> demo_tracks(std::size_t recording_count);
 
 }  // namespace waylode::eval::testing

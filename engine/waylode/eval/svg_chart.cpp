@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/eval/detail/svg_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "waylode/eval/detail/html.hpp"
+
+namespace waylode::eval::detail {
+namespace {
+
+constexpr std::size_t kColourCount = 8;
+constexpr double kWidth_px = 560.0;
+constexpr double kHeight_px = 340.0;
+constexpr double kLeft_px = 54.0;
+constexpr double kRight_px = 542.0;
+constexpr double kTop_px = 16.0;
+constexpr double kBottom_px = 292.0;
+
+/// Axes' units to pixels.
+struct Scale {
+  double x_max;
+  double y_max;
+
+  double x_px(double x) const { return kLeft_px + (kRight_px - kLeft_px) * x / x_max; }
+  double y_px(double y) const { return kBottom_px - (kBottom_px - kTop_px) * y / y_max; }
+};
+
+std::string line(const char* css, double x1, double y1, double x2, double y2) {
+  return fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", css,
+                     coordinate(x1), coordinate(y1), coordinate(x2), coordinate(y2));
+}
+
+std::string text(const char* css, double x, double y, const std::string& content) {
+  return fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", css, coordinate(x),
+                     coordinate(y), escape_html(content));
+}
+
+std::string axes_svg(const LineChart& chart, const Scale& scale) {
+  constexpr double kRounding = 1e-9;  // So that the last tick is not lost to rounding.
+  std::string svg;
+  for (double x = 0.0; x <= chart.x.max * (1.0 + kRounding); x += chart.x.tick) {
+    svg += line("grid", scale.x_px(x), kTop_px, scale.x_px(x), kBottom_px);
+    svg += text("tick mid", scale.x_px(x), kBottom_px + 17.0, fmt::format("{:.4g}", x));
+  }
+  for (double y = 0.0; y <= chart.y.max * (1.0 + kRounding); y += chart.y.tick) {
+    svg += line("grid", kLeft_px, scale.y_px(y), kRight_px, scale.y_px(y));
+    svg += text("tick end", kLeft_px - 7.0, scale.y_px(y) + 4.0, fmt::format("{:.4g}", y));
+  }
+  svg += line("axis", kLeft_px, kBottom_px, kRight_px, kBottom_px);
+  svg += line("axis", kLeft_px, kTop_px, kLeft_px, kBottom_px);
+  svg += text("label mid", 0.5 * (kLeft_px + kRight_px), kHeight_px - 10.0, chart.x.label);
+  const double middle_px = 0.5 * (kTop_px + kBottom_px);
+  svg +=
+      fmt::format("<text class=\"label mid\" transform=\"translate(15 {}) rotate(-90)\">{}</text>",
+                  coordinate(middle_px), escape_html(chart.y.label));
+  return svg;
+}
+
+std::string guides_svg(const LineChart& chart, const Scale& scale) {
+  std::string svg;
+  for (const double y : chart.y_guides) {
+    svg += line("guide", kLeft_px, scale.y_px(y), kRight_px, scale.y_px(y));
+    svg += text("guidelabel end", kRight_px - 4.0, scale.y_px(y) - 5.0,
+                fmt::format("{:g} {}", y, chart.y.unit));
+  }
+  if (chart.with_diagonal) svg += line("guide", kLeft_px, kBottom_px, kRight_px, kTop_px);
+  return svg;
+}
+
+std::string series_svg(const Series& series, const Scale& scale) {
+  std::string points;
+  std::string dots;
+  for (const core::Vector2& point : series.points) {
+    const std::string x = coordinate(scale.x_px(point.x()));
+    const std::string y = coordinate(scale.y_px(point.y()));
+    points += (points.empty() ? "" : " ") + x + "," + y;
+    if (series.with_dots) dots += "M" + x + " " + y + "h0";
+  }
+  std::string svg = fmt::format(
+      "<g class=\"{}\" data-m=\"{}\" data-name=\"{}\"><polyline class=\"line\" points=\"{}\"/>",
+      method_classes(series.method), series.method, escape_html(series.name), points);
+  if (!dots.empty()) svg += "<path class=\"dots\" d=\"" + dots + "\"/>";
+  return svg + "</g>";
+}
+
+/// What the page's script needs to turn pixels back into the axes' units.
+std::string hover_attributes(const LineChart& chart) {
+  return fmt::format(
+      "data-x0=\"{}\" data-x1=\"{}\" data-y0=\"{}\" data-y1=\"{}\" data-xmax=\"{:g}\" "
+      "data-ymax=\"{:g}\" data-xunit=\"{}\" data-yunit=\"{}\"",
+      coordinate(kLeft_px), coordinate(kRight_px), coordinate(kBottom_px), coordinate(kTop_px),
+      chart.x.max, chart.y.max, escape_html(chart.x.unit), escape_html(chart.y.unit));
+}
+
+}  // namespace
+
+std::string svg_line_chart(const LineChart& chart) {
+  const Scale scale{chart.x.max, chart.y.max};
+  std::string svg =
+      fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" {}>",
+                  kWidth_px, kHeight_px, escape_html(chart.title), hover_attributes(chart));
+  svg += axes_svg(chart, scale) + guides_svg(chart, scale);
+  // A nested <svg> clips to its own box, without an id to keep unique.
+  svg += fmt::format(
+      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">",
+      kLeft_px, kTop_px - 4.0, kRight_px - kLeft_px + 4.0, kBottom_px - kTop_px + 8.0);
+  for (const Series& series : chart.series) svg += series_svg(series, scale);
+  svg += "</svg>" + line("cursor", kLeft_px, kTop_px, kLeft_px, kBottom_px);
+  return svg + "</svg>\n";
+}
+
+double nice_step(double range, int count) {
+  const double raw = range / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double leading = raw / power;
+  if (leading <= 1.0) return power;
+  if (leading <= 2.0) return 2.0 * power;
+  return leading <= 5.0 ? 5.0 * power : 10.0 * power;
+}
+
+std::string method_classes(std::size_t method) {
+  return fmt::format("c{} k{}", method % kColourCount, (method / 4) % 3);
+}
+
+}  // namespace waylode::eval::detail
