@@ -9,10 +9,10 @@ seconds=$1
 root=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$root/build/fuzz/crashes"
 found=
-for program in "$root"/build/fuzz/bin/*_fuzz; do
+for program in "$root"/build/fuzz/bin/fuzz_*; do
   [ -x "$program" ] || continue
   found=1
-  target=$(basename "$program" _fuzz)
+  target=$(basename "$program"); target=${target#fuzz_}
   corpus="$root/build/fuzz/corpus/$target"
   mkdir -p "$corpus"
   seeds="$root/fuzz/corpus/$target"
