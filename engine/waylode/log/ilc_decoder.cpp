@@ -12,12 +12,13 @@
 #include "waylode/log/detail/fields.hpp"
 #include "waylode/log/detail/ilc_records.hpp"
 #include "waylode/log/detail/limits.hpp"
-#include "waylode/log/detail/reasons.hpp"
+#include "waylode/log/detail/text_decoder.hpp"
 
 namespace waylode::log {
 namespace {
 
-constexpr core::Duration kScanCloses = std::chrono::milliseconds(200);
+using detail::Complaint;
+
 constexpr std::string_view kTypePrefix = "TYPE_";
 constexpr std::size_t kMaxTypeLength = 64;
 
@@ -28,70 +29,28 @@ bool is_type_name(std::string_view type) {
          });
 }
 
-/// Keeps the first value told.
-void tell(std::string& field, std::string_view value) {
-  if (field.empty()) field = value;
-}
-
 void tell_start(std::optional<core::UtcTime>& start, std::string_view value) {
   const auto time_ms = detail::parse_integer<std::int64_t>(value);
   if (start || !time_ms || *time_ms < 0 || *time_ms > detail::kMaxTime_ms) return;
   start = core::UtcTime(std::chrono::milliseconds(*time_ms));
 }
 
-}  // namespace
+class IlcDecoder final : public detail::TextDecoder {
+ public:
+  explicit IlcDecoder(SampleSink sink) : TextDecoder(LogFormat::kIlc, '#', std::move(sink)) {}
 
-IlcDecoder::IlcDecoder(SampleSink sink) : sink_(std::move(sink)) {
-  report_.format = LogFormat::kIlc;
-}
-
-void IlcDecoder::feed(std::string_view bytes) {
-  report_.bytes_read += bytes.size();
-  lines_.feed(
-      bytes, [this](std::string_view line) { take_line(line); },
-      [this] { tally_.reject(detail::kLineTooLong); });
-}
-
-void IlcDecoder::finish() {
-  const std::string_view rest = lines_.unended();
-  if (rest.starts_with('#')) {
-    take_header(rest);
-  } else if (!rest.empty() && (!detail::is_whole_ilc_line(rest) || take_record(rest) != nullptr)) {
-    report_.truncated = "the last line, at byte " +
-                        std::to_string(report_.bytes_read - rest.size()) + ", is cut short";
+ private:
+  Complaint take_record(std::string_view line) override;
+  void take_header(std::string_view line) override;
+  std::size_t find_run_on(std::string_view line) const override {
+    return detail::find_run_on_ilc_record(line);
   }
-  emit_scan();
-  tally_.write_to(report_);
-}
+  bool is_whole(std::string_view line) const override { return detail::is_whole_ilc_line(line); }
 
-void IlcDecoder::take_line(std::string_view line) {
-  if (line.empty()) return;
-  const bool is_header = line.front() == '#';
-  const Complaint complaint = is_header ? nullptr : take_record(line);
-  if (!is_header && complaint == nullptr) return;
-  const std::size_t cut = detail::find_run_on_ilc_record(line);
-  if (is_header) {
-    take_header(line.substr(0, cut));
-  } else if (cut == std::string_view::npos) {
-    tally_.reject(complaint);
-  } else if (const Complaint first = take_record(line.substr(0, cut))) {
-    tally_.reject(first);
-  }
-  if (cut != std::string_view::npos) take_run_on(line.substr(cut));
-}
-
-void IlcDecoder::take_run_on(std::string_view line) {
-  while (true) {
-    const std::size_t cut = detail::find_run_on_ilc_record(line);
-    if (const Complaint complaint = take_record(line.substr(0, cut))) {
-      tally_.reject(complaint);
-    } else {
-      ++report_.recovered_run_on;
-    }
-    if (cut == std::string_view::npos) return;
-    line.remove_prefix(cut);
-  }
-}
+  Complaint take_typed(std::string_view type, core::DeviceTime time, std::string_view line);
+  Complaint take_wifi(core::DeviceTime time, std::string_view line);
+  Complaint take_other(std::string_view type, std::string_view line);
+};
 
 void IlcDecoder::take_header(std::string_view line) {
   while (!line.empty()) {
@@ -102,15 +61,15 @@ void IlcDecoder::take_header(std::string_view line) {
     if (colon == std::string_view::npos) continue;
     const std::string_view key = field.substr(0, colon);
     const std::string_view value = field.substr(colon + 1);
-    if (key == "startTime") tell_start(report_.info.start_utc, value);
-    if (key == "SiteName") tell(report_.info.site, value);
-    if (key == "FloorName") tell(report_.info.floor, value);
-    if (key == "Brand") tell(report_.info.device_brand, value);
-    if (key == "Model") tell(report_.info.device_model, value);
+    if (key == "startTime") tell_start(info().start_utc, value);
+    if (key == "SiteName") detail::tell(info().site, value);
+    if (key == "FloorName") detail::tell(info().floor, value);
+    if (key == "Brand") detail::tell(info().device_brand, value);
+    if (key == "Model") detail::tell(info().device_model, value);
   }
 }
 
-IlcDecoder::Complaint IlcDecoder::take_record(std::string_view line) {
+Complaint IlcDecoder::take_record(std::string_view line) {
   const std::size_t time_end = line.find('\t');
   if (time_end == std::string_view::npos) return detail::kNotARecord;
   const std::size_t type_end = std::min(line.find('\t', time_end + 1), line.size());
@@ -121,8 +80,8 @@ IlcDecoder::Complaint IlcDecoder::take_record(std::string_view line) {
   return take_typed(type, *time, line);
 }
 
-IlcDecoder::Complaint IlcDecoder::take_typed(std::string_view type, core::DeviceTime time,
-                                             std::string_view line) {
+Complaint IlcDecoder::take_typed(std::string_view type, core::DeviceTime time,
+                                 std::string_view line) {
   const auto take = [&]<typename Sample>(Complaint (*parse)(std::string_view, Sample&)) {
     Sample sample{};
     sample.time = time;
@@ -144,33 +103,29 @@ IlcDecoder::Complaint IlcDecoder::take_typed(std::string_view type, core::Device
   }
   if (type == "TYPE_BEACON") return take(detail::parse_ilc_beacon);
   if (type == "TYPE_WAYPOINT") return take(detail::parse_ilc_waypoint);
-  if (detail::find_run_on_ilc_record(line) != std::string_view::npos) return detail::kFieldCount;
-  if (!is_type_name(type)) return detail::kNotARecord;
-  tally_.ignore(type);
-  return nullptr;
+  return take_other(type, line);
 }
 
-IlcDecoder::Complaint IlcDecoder::take_wifi(core::DeviceTime time, std::string_view line) {
-  if (detail::find_run_on_ilc_record(line) != std::string_view::npos) return detail::kFieldCount;
+/// A name may hold anything, so a second record on the line must be looked for first.
+Complaint IlcDecoder::take_wifi(core::DeviceTime time, std::string_view line) {
+  if (find_run_on(line) != std::string_view::npos) return detail::kFieldCount;
   sample::WifiReading reading;
   if (Complaint complaint = detail::parse_ilc_wifi(line, time, reading)) return complaint;
-  if (time != scan_.time) emit_scan();
-  scan_.time = time;
-  scan_.readings.push_back(std::move(reading));
+  add_to_scan(time, std::move(reading));
   return nullptr;
 }
 
-void IlcDecoder::emit(sample::Sample&& sample) {
-  if (!scan_.readings.empty() && sample::time_of(sample) > scan_.time + kScanCloses) emit_scan();
-  tally_.accept(sample.index());
-  sink_(std::move(sample));
+Complaint IlcDecoder::take_other(std::string_view type, std::string_view line) {
+  if (find_run_on(line) != std::string_view::npos) return detail::kFieldCount;
+  if (!is_type_name(type)) return detail::kNotARecord;
+  ignore(type);
+  return nullptr;
 }
 
-void IlcDecoder::emit_scan() {
-  if (scan_.readings.empty()) return;
-  sample::Sample scan = std::exchange(scan_, {});
-  tally_.accept(scan.index());
-  sink_(std::move(scan));
+}  // namespace
+
+std::unique_ptr<Decoder> make_ilc_decoder(SampleSink sink) {
+  return std::make_unique<IlcDecoder>(std::move(sink));
 }
 
 }  // namespace waylode::log

@@ -26,14 +26,14 @@ struct Decoded {
 
 Decoded decode(std::string_view text, std::size_t chunk_bytes = std::string_view::npos) {
   Decoded decoded;
-  IlcDecoder decoder(
+  const auto decoder = make_ilc_decoder(
       [&decoded](sample::Sample&& sample) { decoded.samples.push_back(std::move(sample)); });
   while (!text.empty()) {
-    decoder.feed(text.substr(0, chunk_bytes));
+    decoder->feed(text.substr(0, chunk_bytes));
     text.remove_prefix(std::min(chunk_bytes, text.size()));
   }
-  decoder.finish();
-  decoded.report = decoder.report();
+  decoder->finish();
+  decoded.report = decoder->report();
   return decoded;
 }
 
@@ -145,6 +145,15 @@ TEST(IlcDecoder, ReadsAnIBeacon) {
   EXPECT_EQ(reading.rssi_dbm, -94.0F);
   EXPECT_EQ(reading.tx_power_dbm, -75.0F);
   EXPECT_EQ(reading.beacon, "fb349b5f-8000-0080-0010-00003cfe0000/19623/24590");
+}
+
+TEST(IlcDecoder, KeepsABeaconThatBroadcastsAnImpossiblePower) {
+  for (const char* power : {"0", "46"}) {
+    const auto decoded = decode(std::string("5\tTYPE_BEACON\tFB349B5F-8000\t1\t2\t") + power +
+                                "\t-94\t5.25\t30:AE:A4:A1:EB:69\t5\n");
+    EXPECT_EQ(only<sample::BleReading>(decoded).rssi_dbm, -94.0F);
+    EXPECT_EQ(only<sample::BleReading>(decoded).tx_power_dbm, std::nullopt);
+  }
 }
 
 TEST(IlcDecoder, ReadsAWaypoint) {

@@ -10,6 +10,7 @@
 
 #include "waylode/log/detail/byte_stream.hpp"
 #include "waylode/log/detail/format_sniffer.hpp"
+#include "waylode/log/getsensordata_decoder.hpp"
 #include "waylode/log/ilc_decoder.hpp"
 
 namespace waylode::log {
@@ -18,8 +19,9 @@ namespace {
 std::unique_ptr<Decoder> make_decoder(LogFormat format, const SampleSink& sink) {
   switch (format) {
     case LogFormat::kIlc:
-      return std::make_unique<IlcDecoder>(sink);
+      return make_ilc_decoder(sink);
     case LogFormat::kGetSensorData:
+      return make_getsensordata_decoder(sink);
     case LogFormat::kMcap:
       break;
   }

@@ -23,6 +23,7 @@ std::optional<char> lower_hex_or_dash(char c) {
 
 std::optional<std::string> ibeacon_name(std::string_view uuid, std::string_view major,
                                         std::string_view minor) {
+  if (uuid.empty()) return std::string();
   if (uuid.size() < kMinUuidLength || uuid.size() > kMaxUuidLength) return std::nullopt;
   const auto major_number = parse_integer<std::uint16_t>(major);
   const auto minor_number = parse_integer<std::uint16_t>(minor);
@@ -38,7 +39,7 @@ std::optional<std::string> ibeacon_name(std::string_view uuid, std::string_view 
 }
 
 std::optional<float> told_tx_power_dbm(double tx_power_dbm) {
-  if (tx_power_dbm == 0.0) return std::nullopt;
+  if (tx_power_dbm >= 0.0) return std::nullopt;
   return static_cast<float>(tx_power_dbm);
 }
 

@@ -52,6 +52,15 @@ inline Fields split_fields(std::string_view line, char separator) {
   }
 }
 
+/// Takes the last field off `line`; false if there is no separator left.
+inline bool pop_field(std::string_view& line, char separator, std::string_view& field) {
+  const std::size_t end = line.rfind(separator);
+  if (end == std::string_view::npos) return false;
+  field = line.substr(end + 1);
+  line = line.substr(0, end);
+  return true;
+}
+
 /// Fields [first, first + values.size()) as numbers; false if one is not.
 inline bool parse_numbers(const Fields& fields, std::size_t first, std::span<double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) {

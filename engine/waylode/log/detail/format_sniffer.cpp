@@ -3,20 +3,14 @@
 #include "waylode/log/detail/format_sniffer.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "waylode/log/detail/getsensordata_records.hpp"
 
 namespace waylode::log::detail {
 namespace {
 
-using namespace std::string_view_literals;
-
 constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-constexpr std::array kGetSensorDataTypes = {"ACCE;"sv, "GYRO;"sv, "MAGN;"sv, "PRES;"sv, "LIGH;"sv,
-                                            "PROX;"sv, "HUMI;"sv, "TEMP;"sv, "AHRS;"sv, "GNSS;"sv,
-                                            "WIFI;"sv, "BLUE;"sv, "BLE4;"sv, "SOUN;"sv, "RFID;"sv,
-                                            "IMUX;"sv, "IMUL;"sv, "IMUI;"sv, "POSI;"sv};
 
 bool is_ilc_record(std::string_view line) {
   const std::size_t digits = line.find_first_not_of("0123456789");
@@ -26,10 +20,10 @@ bool is_ilc_record(std::string_view line) {
 
 std::optional<LogFormat> format_of_record(std::string_view line) {
   if (is_ilc_record(line)) return LogFormat::kIlc;
-  const bool is_getsensordata =
-      std::any_of(kGetSensorDataTypes.begin(), kGetSensorDataTypes.end(),
-                  [line](std::string_view type) { return line.starts_with(type); });
-  if (is_getsensordata) return LogFormat::kGetSensorData;
+  const std::size_t type_end = line.find(';');
+  if (type_end != std::string_view::npos && is_getsensordata_type(line.substr(0, type_end))) {
+    return LogFormat::kGetSensorData;
+  }
   return std::nullopt;
 }
 

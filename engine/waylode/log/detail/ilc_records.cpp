@@ -9,7 +9,6 @@
 #include "waylode/log/detail/beacon.hpp"
 #include "waylode/log/detail/fields.hpp"
 #include "waylode/log/detail/limits.hpp"
-#include "waylode/log/detail/reasons.hpp"
 
 namespace waylode::log::detail {
 namespace {
@@ -54,15 +53,6 @@ Complaint parse_vector_and_bias(std::string_view line, double limit, core::Vecto
   vector = {values[0], values[1], values[2]};
   bias = {values[3], values[4], values[5]};
   return nullptr;
-}
-
-/// Takes the last field off `line`; false if there is no separator left.
-bool pop_field(std::string_view& line, std::string_view& field) {
-  const std::size_t separator = line.rfind('\t');
-  if (separator == std::string_view::npos) return false;
-  field = line.substr(separator + 1);
-  line = line.substr(0, separator);
-  return true;
 }
 
 }  // namespace
@@ -131,8 +121,8 @@ Complaint parse_ilc_wifi(std::string_view line, core::DeviceTime delivery,
   std::string_view frequency;
   std::string_view rssi;
   std::string_view address;
-  if (!pop_field(line, last_seen) || !pop_field(line, frequency) || !pop_field(line, rssi) ||
-      !pop_field(line, address)) {
+  if (!pop_field(line, '\t', last_seen) || !pop_field(line, '\t', frequency) ||
+      !pop_field(line, '\t', rssi) || !pop_field(line, '\t', address)) {
     return kFieldCount;
   }
   const std::size_t type_end = line.find('\t', line.find('\t') + 1);
@@ -161,7 +151,7 @@ Complaint parse_ilc_beacon(std::string_view line, sample::BleReading& reading) {
   const auto tx_power_dbm = parse_number(fields[5]);
   const auto rssi_dbm = parse_number(fields[6]);
   if (!tx_power_dbm || !rssi_dbm) return kNotANumber;
-  if (!is_rssi(*tx_power_dbm) || !is_rssi(*rssi_dbm)) return kOutOfRange;
+  if (!is_tx_power(*tx_power_dbm) || !is_rssi(*rssi_dbm)) return kOutOfRange;
   const auto beacon = ibeacon_name(fields[2], fields[3], fields[4]);
   if (!beacon) return kBadBeacon;
   reading.transmitter = core::TransmitterId::bluetooth(*address48);

@@ -6,18 +6,16 @@
 #include <optional>
 #include <string_view>
 
+#include "waylode/log/detail/reasons.hpp"
 #include "waylode/sample/sample.hpp"
 
 /// Single lines of an ILC log. Every parser gets the whole line, returns nullptr and fills its
 /// second argument, or returns the reason why the record is bad.
 namespace waylode::log::detail {
 
-using Complaint = const char*;
-
 /// The line's first field, Unix milliseconds.
 std::optional<core::DeviceTime> parse_ilc_time(std::string_view text);
 
-/// IMU records and waypoints: `values` numbers, then the accuracy where the type has one.
 Complaint parse_ilc_accelerometer(std::string_view line, sample::AccelerometerSample& sample);
 Complaint parse_ilc_gyroscope(std::string_view line, sample::GyroscopeSample& sample);
 Complaint parse_ilc_magnetometer(std::string_view line, sample::MagnetometerSample& sample);

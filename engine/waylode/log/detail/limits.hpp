@@ -25,7 +25,8 @@ inline constexpr std::int32_t kMaxFrequency_mhz = 100'000;
 inline constexpr double kMaxGnssAccuracy_m = 1'000'000.0;
 /// The last millisecond that fits a 64-bit count of nanoseconds, with a margin for sums.
 inline constexpr std::int64_t kMaxTime_ms = 9'000'000'000'000;
-inline constexpr double kMaxTime_s = 9e9;
+/// Seconds since any start, or UTC until 2096; differences of two differences fit 64 bits too.
+inline constexpr double kMaxTime_s = 4e9;
 
 inline bool all_within(std::span<const double> values, double limit) {
   return std::all_of(values.begin(), values.end(),
@@ -36,9 +37,16 @@ inline bool is_rssi(double value_dbm) {
   return value_dbm >= kMinRssi_dbm && value_dbm <= kMaxRssi_dbm;
 }
 
+inline bool is_pressure(double value_hpa) {
+  return value_hpa >= kMinPressure_hpa && value_hpa <= kMaxPressure_hpa;
+}
+
 inline bool is_geo_point(double latitude_deg, double longitude_deg) {
   return std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 180.0;
 }
+
+/// What one signed byte of an advertisement can say.
+inline bool is_tx_power(double value_dbm) { return value_dbm >= -128.0 && value_dbm <= 127.0; }
 
 /// A rotation from the vector part of its unit quaternion, the scalar part being positive (Android
 /// TYPE_ROTATION_VECTOR). The length may exceed one by rounding only; else nullopt.

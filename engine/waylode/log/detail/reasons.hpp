@@ -5,6 +5,9 @@
 /// Why a record of a text log was rejected, as LogReport::rejected names it.
 namespace waylode::log::detail {
 
+/// One of the reasons below; nullptr: nothing to complain of.
+using Complaint = const char*;
+
 inline constexpr const char* kFieldCount = "wrong_field_count";
 inline constexpr const char* kNotANumber = "not_a_number";
 inline constexpr const char* kOutOfRange = "out_of_range";
