@@ -26,10 +26,12 @@ struct FloorDraft {
 /// A floor without plan or georeference.
 FloorDraft bare_floor(std::string_view name, const core::Bounds2& bounds);
 
-/// Waylode's own plan: GeoJSON whose coordinates are floor metres (contract/plan-format.md).
+/// Waylode's own plan: GeoJSON whose coordinates are floor metres (contract/plan-format.md). The
+/// origin is the centre of the bounds. kPlanInvalid names `place` and the feature's index.
 core::Result<FloorDraft> parse_plan(std::string_view geojson, std::string_view place);
 
-/// The plan as GeoJSON; parse_plan gives the same draft back (to the millimetre).
+/// The plan as GeoJSON; parse_plan gives the same draft back (to the millimetre) when its bounds
+/// enclose an area with all that is drawn, and its polygons are simple.
 std::string format_plan(const FloorDraft& draft);
 
 /// A floor of the Indoor Location Competition: `geojson` in WGS-84 and the plan's size in metres.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/site/detail/wall_edges.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -23,16 +23,17 @@ class EdgeCollector {
     add(polygon.outer);
     for (const Ring& hole : polygon.holes) add(hole);
   }
+  void add(const core::Vector2& from_m, const core::Vector2& to_m) {
+    const Millimetres a = to_millimetres(from_m);
+    const Millimetres b = to_millimetres(to_m);
+    if (a != b && seen_.insert(std::minmax(a, b)).second) walls_.push_back({from_m, to_m});
+  }
   std::vector<Wall> take() { return std::move(walls_); }
 
  private:
   void add(const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const core::Vector2& from_m = ring[i];
-      const core::Vector2& to_m = ring[(i + 1) % ring.size()];
-      const Millimetres a = to_millimetres(from_m);
-      const Millimetres b = to_millimetres(to_m);
-      if (a != b && seen_.insert(std::minmax(a, b)).second) walls_.push_back({from_m, to_m});
+      add(ring[i], ring[(i + 1) % ring.size()]);
     }
   }
 
@@ -45,6 +46,13 @@ class EdgeCollector {
 std::vector<Wall> edges_of(const Plan& plan) {
   EdgeCollector edges;
   for (const Polygon& polygon : plan.walkable) edges.add(polygon);
+  for (const Polygon& polygon : plan.obstacles) edges.add(polygon);
+  return edges.take();
+}
+
+std::vector<Wall> walls_with_obstacle_edges(const Plan& plan) {
+  EdgeCollector edges;
+  for (const Wall& wall : plan.walls) edges.add(wall.from_m, wall.to_m);
   for (const Polygon& polygon : plan.obstacles) edges.add(polygon);
   return edges.take();
 }

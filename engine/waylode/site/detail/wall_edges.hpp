@@ -12,4 +12,7 @@ namespace waylode::site::detail {
 /// to a millimetre, either direction) comes once, where it is first met.
 std::vector<Wall> edges_of(const Plan& plan);
 
+/// The plan's walls, then the edges of its obstacles that are not among them.
+std::vector<Wall> walls_with_obstacle_edges(const Plan& plan);
+
 }  // namespace waylode::site::detail
