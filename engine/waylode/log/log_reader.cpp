@@ -12,6 +12,7 @@
 #include "waylode/log/detail/format_sniffer.hpp"
 #include "waylode/log/getsensordata_decoder.hpp"
 #include "waylode/log/ilc_decoder.hpp"
+#include "waylode/log/mcap_decoder.hpp"
 
 namespace waylode::log {
 namespace {
@@ -25,7 +26,7 @@ std::unique_ptr<Decoder> make_decoder(LogFormat format, const SampleSink& sink) 
     case LogFormat::kMcap:
       break;
   }
-  return nullptr;
+  return make_mcap_decoder(sink);
 }
 
 /// Holds back the head of a log until it shows the format, then decodes.
