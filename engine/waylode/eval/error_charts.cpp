@@ -13,7 +13,7 @@
 namespace waylode::eval::detail {
 namespace {
 
-constexpr double kCdfTop = 0.97;  // The x axis reaches this quantile of the widest method.
+constexpr double kCdfTop = 0.95;  // The x axis reaches this quantile of the widest method.
 constexpr int kCdfPoints = 200;
 constexpr double kShortest_s = 5.0;
 constexpr std::size_t kFewestInBin = 3;  // A mean of fewer says nothing.
@@ -53,28 +53,52 @@ std::vector<core::Vector2> mean_by_time(const std::vector<PointError>& errors, d
   return points;
 }
 
-}  // namespace
-
-std::string error_cdf_svg(const std::vector<MethodErrors>& methods) {
+/// One curve per method through the quantiles of its sorted values.
+std::string cdf_svg(const std::vector<MethodErrors>& methods,
+                    const std::vector<std::vector<double>>& sorted_m, const char* title,
+                    const char* x_label, const char* y_label) {
   LineChart chart;
-  chart.title = "Cumulative distribution of the error";
+  chart.title = title;
   double most_m = 0.0;
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    const auto errors_m = sorted_values(methods[m].errors, &PointError::horizontal_m);
-    if (errors_m.empty()) continue;
+    if (sorted_m[m].empty()) continue;
     Series series{m, methods[m].name, {core::Vector2::Zero()}, false};
     for (int i = 0; i <= kCdfPoints; ++i) {
       const double probability = static_cast<double>(i) / kCdfPoints;
-      series.points.emplace_back(quantile(errors_m, probability), 100.0 * probability);
+      series.points.emplace_back(quantile(sorted_m[m], probability), 100.0 * probability);
     }
-    most_m = std::max(most_m, quantile(errors_m, kCdfTop));
+    most_m = std::max(most_m, quantile(sorted_m[m], kCdfTop));
     chart.series.push_back(std::move(series));
   }
   if (chart.series.empty()) return {};
-  chart.x = axis_to(most_m, 8, "error (m)", "m");
-  chart.y = percent_axis("share of positions (%)");
+  chart.x = axis_to(most_m, 8, x_label, "m");
+  chart.y = percent_axis(y_label);
   chart.y_guides = {50.0, 90.0};
   return svg_line_chart(chart);
+}
+
+}  // namespace
+
+std::string error_cdf_svg(const std::vector<MethodErrors>& methods) {
+  std::vector<std::vector<double>> errors_m;
+  for (const MethodErrors& method : methods) {
+    errors_m.push_back(sorted_values(method.errors, &PointError::horizontal_m));
+  }
+  return cdf_svg(methods, errors_m, "Cumulative distribution of the error", "error (m)",
+                 "share of positions (%)");
+}
+
+std::string recording_cdf_svg(const std::vector<MethodErrors>& methods) {
+  std::vector<std::vector<double>> means_m;
+  std::size_t most = 0;
+  for (const MethodErrors& method : methods) {
+    means_m.push_back(method.track_means_m);
+    std::sort(means_m.back().begin(), means_m.back().end());
+    most = std::max(most, means_m.back().size());
+  }
+  if (most < 2) return {};
+  return cdf_svg(methods, means_m, "Cumulative distribution of the mean error of recordings",
+                 "mean error of a recording (m)", "share of recordings (%)");
 }
 
 std::string reliability_svg(const std::vector<MethodErrors>& methods) {

@@ -48,10 +48,12 @@ std::vector<Recording> scored_recordings(std::span<const EvaluatedTrack> tracks)
 std::vector<MethodErrors> errors_by_method(std::span<const EvaluatedTrack> tracks) {
   const std::vector<std::string> names = methods_in_order(tracks);
   std::vector<MethodErrors> methods;
-  for (const std::string& name : names) methods.push_back({name, {}});
+  for (const std::string& name : names) methods.push_back({name, {}, {}});
   for (const EvaluatedTrack& track : tracks) {
-    std::vector<PointError>& errors = methods[index_of(names, track.method)].errors;
-    for (const PointError& error : track_errors(track)) errors.push_back(error);
+    MethodErrors& method = methods[index_of(names, track.method)];
+    for (const PointError& error : track_errors(track)) method.errors.push_back(error);
+    const double mean_m = mean_error_m(track);
+    if (!std::isnan(mean_m)) method.track_means_m.push_back(mean_m);
   }
   return methods;
 }

@@ -101,6 +101,9 @@ std::string charts(const std::vector<MethodErrors>& methods) {
               "stated doubt is right; below it the method is too sure of itself.") +
          card("How soon", detail::error_over_time_svg(methods),
               "Mean error against the time since a track's first truth.") +
+         card("How even", detail::recording_cdf_svg(methods),
+              "Share of recordings whose mean error is within a distance: whether a few walks go "
+              "wrong or all are alike.") +
          "</div>\n";
 }
 

@@ -28,7 +28,7 @@ std::string_view report_style() {
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--bg); color: var(--fg);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif; }
-main { max-width: 1240px; margin: 0 auto; padding: 28px 24px 56px; }
+main { max-width: 1280px; margin: 0 auto; padding: 28px 24px 56px; }
 h1 { font-size: 27px; line-height: 1.2; margin: 0 0 6px; letter-spacing: -0.01em; }
 h2 { font-size: 18px; margin: 36px 0 10px; }
 h3 { font-size: 15px; margin: 0 0 8px; }
@@ -53,12 +53,14 @@ p { margin: 0 0 10px; max-width: 78ch; }
 .legend input { margin: 0; accent-color: var(--accent); }
 .scroll { overflow-x: auto; background: var(--card); border: 1px solid var(--line);
   border-radius: 10px; }
-table { border-collapse: collapse; width: 100%; font-size: 13.5px;
+table { border-collapse: collapse; width: 100%; font-size: 13px;
   font-variant-numeric: tabular-nums; }
-th, td { padding: 7px 10px; text-align: right; white-space: nowrap; vertical-align: top;
+th, td { padding: 7px; text-align: right; white-space: nowrap; vertical-align: top;
   border-bottom: 1px solid var(--grid); }
+th:first-child { padding-left: 14px; }
+th:last-child, td:last-child { padding-right: 14px; }
 tbody tr:last-child > * { border-bottom: 0; }
-thead th { color: var(--dim); font-weight: 600; font-size: 12.5px; vertical-align: bottom;
+thead th { color: var(--dim); font-weight: 600; font-size: 12px; vertical-align: bottom;
   white-space: normal; border-bottom: 1px solid var(--line); line-height: 1.3; }
 thead th[title] { cursor: help; }
 thead th .swatch { vertical-align: 0; }
@@ -70,10 +72,14 @@ thead th .swatch { vertical-align: 0; }
   gap: 16px; }
 .card { padding: 14px 16px 10px; min-width: 0; }
 .tracks { display: grid; gap: 16px;
-  grid-template-columns: repeat(auto-fill, minmax(min(100%, 360px), 1fr)); align-items: start; }
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 360px), 1fr));
+  grid-auto-flow: dense; align-items: start; }
 figure.track { margin: 0; overflow: hidden; }
+.floors { display: flex; flex-wrap: wrap; }
+.floors svg { flex: 1 1 300px; min-width: 0; }
+@media (min-width: 860px) { figure.wide { grid-column: span 2; } }
 figcaption { padding: 9px 14px 12px; font-size: 13.5px; overflow-wrap: anywhere; }
-.pair { white-space: nowrap; margin-left: 8px; }
+.pair { white-space: nowrap; margin: 0 10px 0 4px; }
 svg { display: block; width: 100%; height: auto; font-size: 12px; }
 svg.definitions { position: absolute; width: 0; height: 0; }
 .c0 { --c: var(--m0); } .c1 { --c: var(--m1); } .c2 { --c: var(--m2); } .c3 { --c: var(--m3); }
@@ -101,7 +107,7 @@ svg.plan { background: var(--void); border-bottom: 1px solid var(--line); }
 .waypoint.before { opacity: 0.4; }
 .startring { stroke: var(--fg); stroke-width: 13; stroke-linecap: round; }
 .startdisc { stroke: var(--walkable); stroke-width: 9.5; stroke-linecap: round; }
-.ellipse { fill: var(--c); fill-opacity: 0.06; stroke: var(--c); stroke-opacity: 0.5; }
+.ellipse { fill: var(--c); fill-opacity: 0.06; stroke: var(--c); stroke-opacity: 0.4; }
 .errorline { fill: none; stroke: var(--c); stroke-width: 0.9; opacity: 0.75;
   stroke-dasharray: 2 2; }
 .fixline { fill: none; stroke: var(--c); stroke-width: 1.6; opacity: 0.65;

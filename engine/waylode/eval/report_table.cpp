@@ -19,7 +19,7 @@ namespace {
 enum class Goal { kLow, kHigh, kTarget, kNone };
 
 struct Column {
-  const char* head;
+  const char* head;  ///< HTML, like `unit`.
   const char* unit;
   const char* help;
   double (*value)(const Metrics&);
@@ -50,11 +50,11 @@ constexpr std::array kColumns = {
            [](const Metrics& m) { return percent(m.floor_hit_ratio); }, 1, Goal::kHigh},
     Column{"floor, tracks", "%", "Tracks with the right floor for most of their fixes",
            [](const Metrics& m) { return percent(m.trace_floor_hit_ratio); }, 1, Goal::kHigh},
-    Column{"within 1 m", "%", "Errors of at most 1 m",
+    Column{"within 1&#160;m", "%", "Errors of at most 1 m",
            [](const Metrics& m) { return percent(m.within_1_m); }, 1, Goal::kHigh},
-    Column{"within 2 m", "%", "Errors of at most 2 m",
+    Column{"within 2&#160;m", "%", "Errors of at most 2 m",
            [](const Metrics& m) { return percent(m.within_2_m); }, 1, Goal::kHigh},
-    Column{"within 3 m", "%", "Errors of at most 3 m",
+    Column{"within 3&#160;m", "%", "Errors of at most 3 m",
            [](const Metrics& m) { return percent(m.within_3_m); }, 1, Goal::kHigh},
     Column{"in 68", "%", "Truths inside the stated 68 % region; 68 is honest",
            [](const Metrics& m) { return percent(m.inside_68_ratio); }, 1, Goal::kTarget, 68.0},
@@ -66,7 +66,7 @@ constexpr std::array kColumns = {
            [](const Metrics& m) { return percent(m.unknown_ratio); }, 1, Goal::kNone},
     Column{"mean, ok", "m", "Mean error of fixes in state ok",
            [](const Metrics& m) { return m.ok_mean_m; }, 2, Goal::kLow},
-    Column{"mean, 10 s on", "m", "Mean error from 10 s after the start",
+    Column{"mean, 10&#160;s&#160;on", "m", "Mean error from 10 s after the start",
            [](const Metrics& m) { return m.after10s_mean_m; }, 2, Goal::kLow},
     Column{"CPU", "ms/s", "Milliseconds of one core per second walked",
            [](const Metrics& m) {
@@ -110,7 +110,7 @@ std::string summary_head() {
   std::string html = "<thead><tr><th scope=\"col\" class=\"name\">method</th>";
   for (const Column& column : kColumns) {
     html += fmt::format("<th scope=\"col\" title=\"{}\">{}<span class=\"unit\">{}</span></th>",
-                        escape_html(column.help), escape_html(column.head), column.unit);
+                        escape_html(column.help), column.head, column.unit);
   }
   return html + "</tr></thead>";
 }

@@ -63,7 +63,7 @@ std::string guides_svg(const LineChart& chart, const Scale& scale) {
   std::string svg;
   for (const double y : chart.y_guides) {
     svg += line("guide", kLeft_px, scale.y_px(y), kRight_px, scale.y_px(y));
-    svg += text("guidelabel end", kRight_px - 4.0, scale.y_px(y) - 5.0,
+    svg += text("guidelabel", kLeft_px + 5.0, scale.y_px(y) - 5.0,
                 fmt::format("{:g} {}", y, chart.y.unit));
   }
   if (chart.with_diagonal) svg += line("guide", kLeft_px, kBottom_px, kRight_px, kTop_px);

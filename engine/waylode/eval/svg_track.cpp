@@ -176,14 +176,14 @@ std::string remarks(const EvaluatedTrack& track) {
 std::string recording_figure(const Recording& recording, const std::vector<MethodErrors>& methods,
                              FloorPlans& plans) {
   const EvaluatedTrack& first = *recording.methods.front().track;
-  std::string html = "<figure class=\"track\">";
-  for (const core::FloorId floor : floors_walked(first)) {
-    html += drawing(recording, methods, floor, plans);
-  }
-  html +=
-      fmt::format("<figcaption><strong>{}</strong> <span class=\"dim\">{}, {} truths, {} s</span>",
-                  escape_html(first.name), escape_html(first.group), first.truths.size(),
-                  html_number(first.walked_s, 0));
+  const std::vector<core::FloorId> floors = floors_walked(first);
+  std::string html = floors.size() > 1 ? "<figure class=\"track wide\"><div class=\"floors\">"
+                                       : "<figure class=\"track\"><div class=\"floors\">";
+  for (const core::FloorId floor : floors) html += drawing(recording, methods, floor, plans);
+  html += fmt::format(
+      "</div><figcaption><strong>{}</strong> <span class=\"dim\">{}, {} truths, {} s</span>",
+      escape_html(first.name), escape_html(first.group), first.truths.size(),
+      html_number(first.walked_s, 0));
   html += "<br/><span class=\"dim\">mean error</span>";
   for (const MethodTrack& method : recording.methods) {
     html += fmt::format(

@@ -12,6 +12,9 @@ namespace waylode::eval::detail {
 /// Share of positions within a distance of the truth, per method. Empty without errors.
 std::string error_cdf_svg(const std::vector<MethodErrors>& methods);
 
+/// Share of recordings whose mean error is at most a distance. Empty with fewer than two.
+std::string recording_cdf_svg(const std::vector<MethodErrors>& methods);
+
 /// Share of truths inside the region stated for a probability, against that probability.
 std::string reliability_svg(const std::vector<MethodErrors>& methods);
 

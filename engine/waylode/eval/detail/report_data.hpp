@@ -16,6 +16,7 @@ namespace waylode::eval::detail {
 struct MethodErrors {
   std::string name;
   std::vector<PointError> errors;
+  std::vector<double> track_means_m;  ///< Of tracks with scored truths.
 };
 
 /// Methods in the order of their first appearance.

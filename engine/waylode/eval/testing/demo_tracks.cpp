@@ -56,18 +56,18 @@ std::shared_ptr<const site::Site> demo_site() {
   return std::make_shared<const site::Site>(std::move(parts));
 }
 
-/// Along the corridor through the middle and around the shops, clockwise or not.
+/// Counter-clockwise around one row of shops, outside and through the middle.
 core::Vector2 corridor_position_m(double distance_m) {
-  const double around_m = std::fmod(distance_m, 160.0);
-  if (around_m < 64.0) return {3.0 + around_m, 2.5};
-  if (around_m < 80.0) return {67.0, 2.5 + (around_m - 64.0)};
-  if (around_m < 144.0) return {67.0 - (around_m - 80.0), 18.5};
-  return {3.0, 18.5 - (around_m - 144.0)};
+  const double around_m = std::fmod(distance_m, 150.0);
+  if (around_m < 64.0) return {3.0 + around_m, 3.0};
+  if (around_m < 75.0) return {67.0, 3.0 + (around_m - 64.0)};
+  if (around_m < 139.0) return {67.0 - (around_m - 75.0), 14.0};
+  return {3.0, 14.0 - (around_m - 139.0)};
 }
 
 std::vector<TruthPoint> demo_walk(core::Rng& rng, bool changes_floor) {
   const auto floor = static_cast<std::uint16_t>(rng.below(2));
-  const double start_m = rng.uniform(0.0, 160.0);
+  const double start_m = rng.uniform(0.0, 150.0);
   std::vector<TruthPoint> truths;
   for (int i = 0; i < 10; ++i) {
     const bool upstairs = changes_floor && i >= 6;
