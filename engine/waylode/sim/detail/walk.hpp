@@ -23,8 +23,7 @@ struct Person {
 };
 Person draw_person(const GaitOptions& options, core::Rng& rng);
 
-/// Step length at a cadence. [Chen] as in D-2.6: 0.7 + 0.371 (h - 1.75) + 0.227 (f - 1.79) h
-/// / 1.75.
+/// Step length at a cadence by Chen's law times the personal factor (docs/simulator.md, Gait).
 double step_length_m(const Person& person, double cadence_hz);
 
 /// A person at one instant.
