@@ -43,7 +43,7 @@ golden: setup-test ## Rewrite the expected results under testdata/; review the d
 	@$(call preset,ci) && WAYLODE_UPDATE_GOLDEN=1 ctest --preset golden
 
 bench: setup-test ## Build and run the speed benchmarks
-	@$(call preset,bench) && tools/run_each.sh build/bench/bin '*_bench'
+	@$(call preset,bench) && tools/run_each.sh build/bench/bin 'bench_*'
 
 fuzz: setup-test ## Fuzz every reader for FUZZ_SECONDS (60)
 	@$(call preset,fuzz) && tools/fuzz.sh $(or $(FUZZ_SECONDS),60)
