@@ -77,6 +77,7 @@ thead th .swatch { vertical-align: 0; }
 figure.track { margin: 0; overflow: hidden; }
 .floors { display: flex; flex-wrap: wrap; }
 .floors svg { flex: 1 1 300px; min-width: 0; }
+.floors svg + svg { box-shadow: -1px 0 0 var(--line); }
 @media (min-width: 860px) { figure.wide { grid-column: span 2; } }
 figcaption { padding: 9px 14px 12px; font-size: 13.5px; overflow-wrap: anywhere; }
 .pair { white-space: nowrap; margin: 0 10px 0 4px; }
