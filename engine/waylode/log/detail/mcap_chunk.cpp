@@ -15,7 +15,6 @@ std::optional<ChunkView> parse_chunk(std::string_view content) {
   ByteReader reader(content);
   reader.take<std::uint64_t>();  // Start and end times; the messages have their own.
   reader.take<std::uint64_t>();
-  ChunkView chunk;
   const auto uncompressed_size = reader.take<std::uint64_t>();
   const auto crc = reader.take<std::uint32_t>();
   const auto compression = reader.take_string();

@@ -83,8 +83,8 @@ const char* fault(const sample::UncalibratedMagnetometerSample& value) {
 }
 
 const char* fault(const sample::RotationSample& value) {
-  // Logs print quaternions with few digits; further off than this is not an attitude.
-  constexpr double kNormTolerance = 0.1;
+  // A unit quaternion in double precision, as every decoder makes it.
+  constexpr double kNormTolerance = 1e-9;
   const core::Quaternion& turn = value.enu_from_device;
   return first_of(limit_fault(1.0 + kNormTolerance, turn.w(), turn.x(), turn.y(), turn.z()),
                   range_fault(std::abs(turn.norm() - 1.0) <= kNormTolerance));
