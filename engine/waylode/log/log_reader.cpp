@@ -13,6 +13,7 @@
 #include "waylode/log/getsensordata_decoder.hpp"
 #include "waylode/log/ilc_decoder.hpp"
 #include "waylode/log/mcap_decoder.hpp"
+#include "waylode/log/mcap_decoder.hpp"
 
 namespace waylode::log {
 namespace {
@@ -48,11 +49,13 @@ class LogIntake {
 
  private:
   bool start_decoding() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     const std::optional<LogFormat> format = detail::sniff_format(head_);
     if (!format) return false;
     decoder_ = make_decoder(*format, sink_);
-    if (decoder_ == nullptr) return false;
-    decoder_->feed(std::exchange(head_, {}));
+    const std::string head = std::exchange(head_, {});
+    const bool is_marked = head.starts_with(kByteOrderMark);
+    decoder_->feed(std::string_view(head).substr(is_marked ? kByteOrderMark.size() : 0));
     return true;
   }
 

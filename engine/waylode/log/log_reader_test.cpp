@@ -142,6 +142,40 @@ TEST(LogReader, RecognisesALogBehindDamagedLines) {
   EXPECT_EQ(accepted(*report, "accelerometer"), 3U);
 }
 
+TEST(LogReader, PassesOverAByteOrderMark) {
+  const auto report = read_log_bytes("\xEF\xBB\xBF" + make_log(3), "marked", kDropSample);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->rejected_total(), 0U);
+  EXPECT_EQ(accepted(*report, "accelerometer"), 3U);
+}
+
+TEST(LogReader, ReadsTheBundledLogs) {
+  const auto ilc = read_log(test::source_root() / "testdata/ilc_mini/mini.txt", kDropSample);
+  ASSERT_TRUE(ilc) << core::to_string(ilc.error());
+  EXPECT_EQ(ilc->format, LogFormat::kIlc);
+  EXPECT_EQ(ilc->info.floor, "F1");
+  EXPECT_EQ(ilc->rejected_total(), 0U);
+  // 12 s at 10 Hz, both ends included; counts as the folder's README tells them.
+  EXPECT_EQ(accepted(*ilc, "accelerometer"), 121U);
+  EXPECT_EQ(accepted(*ilc, "wifi_scan"), 3U);
+  EXPECT_EQ(accepted(*ilc, "waypoint"), 3U);
+  const auto ipin =
+      read_log(test::source_root() / "testdata/getsensordata_mini/mini.txt", kDropSample);
+  ASSERT_TRUE(ipin) << core::to_string(ipin.error());
+  EXPECT_EQ(ipin->format, LogFormat::kGetSensorData);
+  EXPECT_EQ(ipin->info.device_model, "Pocket 1");
+  EXPECT_EQ(ipin->rejected_total(), 0U);
+  EXPECT_EQ(accepted(*ipin, "barometer"), 101U);
+  EXPECT_EQ(accepted(*ipin, "wifi_scan"), 3U);
+  EXPECT_EQ(accepted(*ipin, "waypoint"), 3U);
+}
+
+TEST(LogReader, HandsAnMcapFileToItsDecoder) {
+  const auto report = read_log_bytes("\x89MCAP0\r\n", "magic only", kDropSample);
+  ASSERT_FALSE(report);
+  EXPECT_NE(report.error().code, core::ErrorCode::kLogUnrecognised);
+}
+
 TEST(LogReader, LoadsARecordingInOrderOfTime) {
   const test::TemporaryFolder folder;
   write_file(folder.path() / "log.txt",
