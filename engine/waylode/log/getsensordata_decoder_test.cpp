@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"wrong_field_count", "WIFI;1;0;-50"},
         BadLine{"not_a_number", "ACCE;1;5000;1;x;3;3"},
         BadLine{"not_a_number", "ACCE;1;5000;1;inf;3;3"},
-        BadLine{"not_a_number", "WIFI;1;0;a;20:23:00:00:00:01;2437;"},
+        BadLine{"not_a_number", "WIFI;1;0;a;20:23:00:00:00:01;2437;x"},
         BadLine{"out_of_range", "ACCE;1;5000;1;2;4000;3"},
         BadLine{"out_of_range", "PRES;1;5000;12;3"},
         BadLine{"out_of_range", "AHRS;1;5000;0;0;0;0.9;0.9;0.9;3"},

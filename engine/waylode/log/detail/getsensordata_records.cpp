@@ -153,6 +153,7 @@ Complaint parse_ble4(std::string_view line, sample::BleReading& reading) {
 
 Complaint parse_wifi(std::string_view line, sample::WifiReading& reading) {
   line = without_end_separator(line);
+  if (std::count(line.begin(), line.end(), ';') < 5) return kFieldCount;
   std::string_view rssi;
   std::string_view address;
   std::string_view frequency = "0";
