@@ -13,7 +13,6 @@
 #include "waylode/log/getsensordata_decoder.hpp"
 #include "waylode/log/ilc_decoder.hpp"
 #include "waylode/log/mcap_decoder.hpp"
-#include "waylode/log/mcap_decoder.hpp"
 
 namespace waylode::log {
 namespace {
