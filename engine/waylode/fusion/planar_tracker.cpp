@@ -167,7 +167,7 @@ double PlanarTracker::add(const PlanarMeasurement& measurement, std::optional<do
   state_.mean += gain * innovation_m;
   state_.covariance = symmetrised(keep * state_.covariance * keep.transpose() +
                                   gain * (noise_m2 / used_weight) * gain.transpose());
-  watch_for_loss(used_weight);
+  if (!weight) watch_for_loss(used_weight);
   return used_weight;
 }
 

@@ -67,16 +67,16 @@ class PlanarTracker {
   struct Options {
     double start_sigma_m = 60.0;  ///< Before the first scan, around its position.
     double heading_offset_sigma_rad = 0.35;
-    double log_scale_sigma = 0.12;
+    double log_scale_sigma = 0.10;
     double heading_offset_walk_rad_per_sqrt_step = 0.03;
     double log_scale_walk_per_sqrt_step = 0.005;
     double position_walk_m_per_sqrt_s = 0.15;  ///< Movement that no step tells.
     double radio_bias_sigma_m = 4.0;
-    double radio_bias_tau_s = 20.0;         ///< How long a radio error persists.
-    double radio_sigma_scale = 1.0;         ///< On the scan's own sigma.
+    double radio_bias_tau_s = 30.0;         ///< How long a radio error persists.
+    double radio_sigma_scale = 1.2;         ///< On the scan's own sigma.
     double radio_degrees_of_freedom = 4.0;  ///< Of the Student-t; large is Gaussian.
-    double lost_weight_ratio = 0.25;        ///< Scans weighted below this, on average, mean "lost".
-    double lost_sigma_m = 15.0;             ///< Doubt added when lost.
+    double lost_weight_ratio = 0.5;        ///< Scans weighted below this, on average, mean "lost".
+    double lost_sigma_m = 20.0;             ///< Doubt added when lost.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;

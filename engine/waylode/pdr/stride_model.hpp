@@ -14,7 +14,7 @@ class StrideModel {
  public:
   struct Options {
     double constant_m = 0.0;
-    double swing_gain = 0.42;  ///< m per (m/s2)^(1/4); [Weinberg2002] K.
+    double swing_gain = 0.41;  ///< m per (m/s2)^(1/4); [Weinberg2002] K.
     double cadence_gain_m_s = 0.0;
     double shortest_m = 0.25;
     double longest_m = 1.2;

@@ -10,6 +10,10 @@ core::Result<void> Options::validate() const {
         smoothing_options().validate()}) {
     if (!part) return part;
   }
+  if (!(bluetooth_alone_after_s > 0.0)) {
+    return core::fail(core::ErrorCode::kInvalidOptions, "bluetooth_alone_after_s must be positive",
+                      "pipeline");
+  }
   return {};
 }
 

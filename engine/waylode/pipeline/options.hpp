@@ -18,6 +18,7 @@ struct Options {
   radio::ScanAssembler::Options scan;
   radio::Matcher::Options matcher;
   radio::WknnEstimator::Options wknn;
+  double bluetooth_alone_after_s = 3.5;  ///< Without Wi-Fi this long, Bluetooth is matched alone.
   pdr::DeadReckoning::Options pdr;
   fusion::FusedTracker::Options fused;
   int smoothing_rounds = smoothing::TrackSmoother::Options{}.rounds;

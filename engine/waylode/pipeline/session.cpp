@@ -33,12 +33,23 @@ struct Session::Pipeline {
   radio::WknnEstimator wknn;
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
+  std::optional<core::DeviceTime> first_advertisement;
 
-  void hear(const sample::WifiScan& scan) {
-    const auto observation = wknn.estimate(assembler.assemble(scan), options.known_floor);
+  void hear(const radio::Query& query) {
+    const auto observation = wknn.estimate(query, options.known_floor);
     if (!observation) return;
     estimator->add(*observation);
-    last_scan = scan.time;
+    last_scan = query.delivered;
+  }
+
+  /// Advertisements wait for the next Wi-Fi scan; when none comes they are matched by themselves.
+  void hear(const sample::BleReading& advertisement) {
+    assembler.add(advertisement);
+    first_advertisement = first_advertisement.value_or(advertisement.time);
+    const core::DeviceTime silent_since = last_scan.value_or(*first_advertisement);
+    const double silent_s = core::to_seconds(advertisement.time - silent_since);
+    if (silent_s < model->options().bluetooth_alone_after_s) return;
+    hear(assembler.assemble_bluetooth(advertisement.time));
   }
 };
 
@@ -57,15 +68,15 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
       model, method, options, pdr::DeadReckoning(tunables.pdr), radio::ScanAssembler(tunables.scan),
       radio::WknnEstimator(model->matcher(), tunables.wknn),
-      make_estimator(*model, method, options), std::nullopt});
+      make_estimator(*model, method, options), std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 
 void Session::push(const sample::Sample& sample) {
   if (const auto* scan = std::get_if<sample::WifiScan>(&sample)) {
-    pipeline_->hear(*scan);
+    pipeline_->hear(pipeline_->assembler.assemble(*scan));
   } else if (const auto* advertisement = std::get_if<sample::BleReading>(&sample)) {
-    pipeline_->assembler.add(*advertisement);
+    pipeline_->hear(*advertisement);
   } else if (const auto motion = pipeline_->reckoning.add(sample)) {
     pipeline_->estimator->add(*motion);
   }

@@ -9,27 +9,28 @@
 namespace waylode::radio {
 namespace {
 
+/// Index into a fingerprint's sums.
+std::size_t band_of(core::TransmitterId transmitter) {
+  return transmitter.kind() == core::TransmitterId::Kind::kBluetooth ? 1 : 0;
+}
+
 /// Sums over the transmitters that query and fingerprint share, per fingerprint of a range.
 struct CommonSums {
   std::vector<float> minimum;
   std::vector<float> product;
 };
 
-struct QuerySums {
-  float strength = 0.0F;
-  float square = 0.0F;
-};
-
 /// Distance from the common sums: |q-f| sums to q + f - 2 min(q, f), and so on.
-float distance_from_sums(Distance distance, const QuerySums& query, float sum, float square,
-                         float minimum, float product) {
-  const auto sorensen = [&] { return 1.0F - 2.0F * minimum / (query.strength + sum); };
-  const auto cosine = [&] { return 1.0F - product / std::sqrt(query.square * square); };
+template <typename Sums>
+float distance_from_sums(Distance distance, const Sums& query, const Sums& other, float minimum,
+                         float product) {
+  const auto sorensen = [&] { return 1.0F - 2.0F * minimum / (query.strength + other.strength); };
+  const auto cosine = [&] { return 1.0F - product / std::sqrt(query.square * other.square); };
   switch (distance) {
     case Distance::kEuclidean:
-      return std::sqrt(std::max(0.0F, query.square + square - 2.0F * product));
+      return std::sqrt(std::max(0.0F, query.square + other.square - 2.0F * product));
     case Distance::kManhattan:
-      return std::max(0.0F, query.strength + sum - 2.0F * minimum);
+      return std::max(0.0F, query.strength + other.strength - 2.0F * minimum);
     case Distance::kSorensen:
       return std::max(0.0F, sorensen());
     case Distance::kCosine:
@@ -79,15 +80,17 @@ Matcher::Matcher(const site::RadioMap& map, const Options& options)
     : map_(map),
       options_(options),
       posting_strength_(map.postings.size()),
-      strength_sum_(map.fingerprints.size(), 0.0F),
-      strength_square_sum_(map.fingerprints.size(), 0.0F) {
-  for (std::size_t i = 0; i < map_.postings.size(); ++i) {
-    const site::Posting& posting = map_.postings[i];
-    const float value =
-        strength(posting.rssi_dbm(), 0.1F * static_cast<float>(posting.age_tenth_s));
-    posting_strength_[i] = value;
-    strength_sum_[posting.fingerprint] += value;
-    strength_square_sum_[posting.fingerprint] += value * value;
+      sums_(map.fingerprints.size()) {
+  for (std::size_t t = 0; t < map_.transmitters.size(); ++t) {
+    const std::size_t band = band_of(core::TransmitterId::from_packed(map_.transmitters[t]));
+    for (std::uint32_t i = map_.posting_begin[t]; i < map_.posting_begin[t + 1]; ++i) {
+      const site::Posting& posting = map_.postings[i];
+      const float value =
+          strength(posting.rssi_dbm(), 0.1F * static_cast<float>(posting.age_tenth_s));
+      posting_strength_[i] = value;
+      sums_[posting.fingerprint][band].strength += value;
+      sums_[posting.fingerprint][band].square += value * value;
+    }
   }
   for (std::uint32_t i = 0; i < map_.fingerprints.size(); ++i) {
     const core::FloorId floor{map_.fingerprints[i].floor};
@@ -114,13 +117,15 @@ MatchResult Matcher::match(std::span<const QueryReading> readings, std::size_t c
     end = range->end;
   }
 
-  QuerySums query;
+  StrengthSums query;
+  std::array<float, 2> listens = {0.0F, 0.0F};  // 1 for a kind that the query holds.
   float known_strength = 0.0F;
   CommonSums common{std::vector<float>(end - begin, 0.0F), std::vector<float>(end - begin, 0.0F)};
   for (const QueryReading& reading : readings) {
     const float value = strength(reading.rssi_dbm, reading.age_s);
     query.strength += value;
     query.square += value * value;
+    listens[band_of(reading.transmitter)] = 1.0F;
     const auto postings = map_.postings_of(reading.transmitter);
     if (postings.empty()) continue;
     known_strength += value;
@@ -142,9 +147,11 @@ MatchResult Matcher::match(std::span<const QueryReading> readings, std::size_t c
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       const float minimum = common.minimum[i - begin];
       if (minimum <= 0.0F) continue;
-      sharing.push_back(
-          {i, distance_from_sums(options_.distance, query, strength_sum_[i],
-                                 strength_square_sum_[i], minimum, common.product[i - begin])});
+      const auto& [wifi, bluetooth] = sums_[i];
+      const StrengthSums other{listens[0] * wifi.strength + listens[1] * bluetooth.strength,
+                               listens[0] * wifi.square + listens[1] * bluetooth.square};
+      sharing.push_back({i, distance_from_sums(options_.distance, query, other, minimum,
+                                               common.product[i - begin])});
     }
     if (sharing.empty()) continue;
     result.floors.push_back({range.floor, keep_nearest(std::move(sharing), count)});

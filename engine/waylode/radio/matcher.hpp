@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -52,7 +53,9 @@ struct MatchResult {
 };
 
 /// Compares a scan with every fingerprint of a radio map. Immutable, so any number of sessions
-/// share one. Exact: the result equals that of comparing the full vectors one by one.
+/// share one. Exact: the result equals that of comparing the full vectors one by one. Wi-Fi counts
+/// only for a scan that has Wi-Fi, Bluetooth only for one that has Bluetooth: a phone that does not
+/// listen tells nothing by its silence.
 class Matcher {
  public:
   struct Options {
@@ -89,11 +92,16 @@ class Matcher {
     std::uint32_t end = 0;
   };
 
+  struct StrengthSums {
+    float strength = 0.0F;
+    float square = 0.0F;
+  };
+
   site::RadioMap map_;
   Options options_;
   std::vector<float> posting_strength_;  ///< Parallel to map_.postings.
-  std::vector<float> strength_sum_;      ///< Per fingerprint.
-  std::vector<float> strength_square_sum_;
+  /// Per fingerprint: of its Wi-Fi (and column) readings, and of its Bluetooth readings.
+  std::vector<std::array<StrengthSums, 2>> sums_;
   std::vector<FloorRange> floors_;
 };
 

@@ -37,6 +37,7 @@ core::Result<void> ScanAssembler::Options::validate() const {
 }
 
 void ScanAssembler::add(const sample::BleReading& reading) {
+  if (options_.ble_window_s <= 0.0) return;
   advertisements_.push_back(reading);
   const core::Duration window = core::from_seconds(options_.ble_window_s);
   while (advertisements_.front().time < reading.time - window) advertisements_.pop_front();
@@ -73,6 +74,16 @@ Query ScanAssembler::assemble(const sample::WifiScan& scan) const {
     query.readings.push_back({transmitter, heard.rssi_dbm,
                               static_cast<float>(core::to_seconds(scan.time - heard.time))});
   }
+  return query;
+}
+
+Query ScanAssembler::assemble_bluetooth(core::DeviceTime time) const {
+  Query query = assemble(sample::WifiScan{time, {}});
+  std::vector<core::DeviceTime> heard;
+  for (const QueryReading& reading : query.readings) {
+    heard.push_back(time - core::from_seconds(static_cast<double>(reading.age_s)));
+  }
+  if (!heard.empty()) query.measured = median_time(std::move(heard));
   return query;
 }
 

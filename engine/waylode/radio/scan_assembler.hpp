@@ -38,6 +38,8 @@ class ScanAssembler {
   void add(const sample::BleReading& reading);
   /// A query without readings when nothing in the scan is usable.
   Query assemble(const sample::WifiScan& scan) const;
+  /// From Bluetooth alone, for a phone whose Wi-Fi is silent or throttled.
+  Query assemble_bluetooth(core::DeviceTime time) const;
 
  private:
   Options options_;

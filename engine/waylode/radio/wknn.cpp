@@ -74,8 +74,9 @@ std::map<core::FloorId, double> vote_for_floors(const MatchResult& match,
   for (const FloorMatch& floor : match.floors) share[floor.floor] = 0.0;
   for (std::size_t i = 0; i < all.size(); ++i) share[all[i].second] += weights[i] / total;
   // A vote of nobody is not proof: neighbours come in runs of the same walk.
-  constexpr double kDoubt = 0.02;
-  for (auto& [floor, value] : share) value = std::log((value + kDoubt) / (1.0 + kDoubt));
+  constexpr double kDoubt = 0.1;
+  const double doubt_each = kDoubt / static_cast<double>(share.size());
+  for (auto& [floor, value] : share) value = std::log((1.0 - kDoubt) * value + doubt_each);
   return share;
 }
 

@@ -16,9 +16,9 @@ namespace waylode::radio {
 class WknnEstimator {
  public:
   struct Options {
-    std::size_t neighbours = 12;        ///< k, 1 to 200.
-    std::size_t floor_neighbours = 12;  ///< Nearest over all floors that vote for theirs.
-    double weight_exponent = 4.0;       ///< Weight = (d_nearest / d)^exponent.
+    std::size_t neighbours = 8;        ///< k, 1 to 200.
+    std::size_t floor_neighbours = 8;  ///< Nearest over all floors that vote for theirs.
+    double weight_exponent = 6.0;      ///< Weight = (d_nearest / d)^exponent.
     /// Error covariance = base^2 I + spread_gain * weighted scatter of the neighbours.
     double base_sigma_m = 3.0;
     double spread_gain = 1.0;

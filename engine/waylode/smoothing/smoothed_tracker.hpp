@@ -21,7 +21,7 @@ class TrackSmoother {
  public:
   struct Options {
     fusion::FusedTracker::Options fused;
-    int rounds = 4;  ///< Passes over the track; the first weighs scans causally.
+    int rounds = 8;  ///< Passes over the track; the first weighs scans causally.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "command.hpp"
+#include "config_file.hpp"
+#include "datasets/ilc_dataset.hpp"
+#include "datasets/ipin_dataset.hpp"
+#include "datasets/mcap_dataset.hpp"
+#include "datasets/uji_dataset.hpp"
+#include "progress_bar.hpp"
+#include "run_evaluation.hpp"
+#include "waylode/core/file.hpp"
+#include "waylode/eval/report.hpp"
+#include "waylode/site/bundle.hpp"
+
+namespace waylode::cli {
+namespace {
+
+struct Arguments {
+  std::string first;              ///< Folder, training table or site, by data set.
+  std::string second;             ///< Validation table (uji).
+  std::vector<std::string> logs;  ///< mcap.
+  std::optional<std::string> split;
+  std::vector<std::string> methods = {"wknn", "fused", "smoothed"};
+  std::string floor;
+  std::optional<std::string> out;
+  std::optional<std::string> report;
+  std::optional<std::string> config;
+};
+
+using Loader =
+    std::function<core::Result<Dataset>(const Arguments& arguments, const DatasetContext& context)>;
+
+core::Result<std::vector<pipeline::Method>> find_methods(const std::vector<std::string>& names) {
+  std::vector<pipeline::Method> methods;
+  for (const std::string& name : names) {
+    const auto method = pipeline::find_method(name);
+    if (!method) return tl::unexpected(method.error());
+    methods.push_back(*method);
+  }
+  return methods;
+}
+
+core::Result<void> write_results(const Arguments& arguments, const eval::ReportOptions& report,
+                                 const std::vector<eval::EvaluatedTrack>& tracks,
+                                 const std::vector<eval::ResultRow>& rows) {
+  if (arguments.out) {
+    if (auto written = core::write_file_atomically(*arguments.out, eval::to_json(report, rows));
+        !written) {
+      return written;
+    }
+  }
+  if (arguments.report) {
+    if (auto written =
+            core::write_file_atomically(*arguments.report, eval::to_html(report, tracks, rows));
+        !written) {
+      return written;
+    }
+  }
+  print(eval::to_text(rows));
+  return {};
+}
+
+core::Result<void> evaluate(const Arguments& arguments, const std::string& command_line,
+                            const Loader& load) {
+  auto methods = find_methods(arguments.methods);
+  if (!methods) return tl::unexpected(methods.error());
+  auto options = load_options(arguments.config);
+  if (!options) return tl::unexpected(options.error());
+
+  core::Result<Dataset> dataset;
+  {
+    ProgressBar bar("reading and mapping");
+    dataset = load(arguments, {*options, bar.sink(), {}});
+  }
+  if (!dataset) return tl::unexpected(dataset.error());
+  if (dataset->tests.empty()) {
+    return core::fail(core::ErrorCode::kInvalidArgument,
+                      "the split leaves no recording to test; mark some as test", arguments.first);
+  }
+  ProgressBar bar("positioning");
+  const auto tracks = run_evaluation(*dataset,
+                                     {*std::move(methods), arguments.floor == "known",
+                                      std::max(1U, std::thread::hardware_concurrency())},
+                                     bar.sink());
+  if (!tracks) return tl::unexpected(tracks.error());
+  const std::vector<eval::ResultRow> rows = eval::summarise(*tracks, dataset->has_covered);
+  return write_results(arguments, {"Evaluation on " + dataset->name, dataset->name, command_line},
+                       *tracks, rows);
+}
+
+void add_common(Verb& verb, const std::shared_ptr<Arguments>& arguments, const char* default_floor,
+                Loader load) {
+  arguments->floor = default_floor;
+  verb.argument("--methods", arguments->methods, "Methods to compare; see `waylode methods`")
+      .comma_separated();
+  verb.argument("--floor", arguments->floor, "Whether the floor is told to the methods")
+      .one_of({"known", "unknown"});
+  verb.argument("--out", arguments->out, "Write the figures as JSON to this file");
+  verb.argument("--report", arguments->report, "Write an HTML page with plans, tracks and curves");
+  verb.argument("--config", arguments->config, "Options other than the defaults (TOML)");
+  verb.run([arguments, load = std::move(load), &context = verb.context()] {
+    return evaluate(*arguments, context.command_line, load);
+  });
+}
+
+std::optional<std::filesystem::path> split_path(const Arguments& arguments) {
+  if (!arguments.split) return std::nullopt;
+  return std::filesystem::path(*arguments.split);
+}
+
+void add_ilc(Verb& evaluation) {
+  const auto arguments = std::make_shared<Arguments>();
+  Verb verb = evaluation.verb("ilc", "Indoor Location Competition folders");
+  verb.examples("  waylode evaluate ilc data/ilc --methods wknn,fused,smoothed --out ilc.json");
+  verb.argument("DIR", arguments->first, "Holds <site>/<floor>/path_data_files/*.txt[.zst]")
+      .required();
+  verb.argument("--split", arguments->split,
+                "CSV with site,floor,trace,split (train|test); a seeded 75/25 split without it");
+  add_common(verb, arguments, "known", [](const Arguments& given, const DatasetContext& context) {
+    return load_ilc_dataset(given.first, split_path(given), context);
+  });
+}
+
+void add_ipin(Verb& evaluation) {
+  const auto arguments = std::make_shared<Arguments>();
+  Verb verb = evaluation.verb("ipin", "GetSensorData logs, as in the IPIN competitions");
+  verb.examples("  waylode evaluate ipin data/ipin2023 --split routes.csv --out ipin.json");
+  verb.argument("DIR", arguments->first, "Searched with all its folders for *.txt[.zst]")
+      .required();
+  verb.argument("--split", arguments->split,
+                "CSV with log,split (train|test); a seeded 75/25 split without it");
+  add_common(verb, arguments, "unknown", [](const Arguments& given, const DatasetContext& context) {
+    return load_ipin_dataset(given.first, split_path(given), context);
+  });
+}
+
+void add_uji(Verb& evaluation) {
+  const auto arguments = std::make_shared<Arguments>();
+  arguments->methods = {"wknn"};
+  Verb verb = evaluation.verb("uji", "UJIIndoorLoc tables");
+  verb.examples("  waylode evaluate uji trainingData.csv validationData.csv --out uji.json");
+  verb.argument("TRAIN", arguments->first, "Surveyed fingerprints, CSV or CSV.zst").required();
+  verb.argument("VALIDATION", arguments->second, "Fingerprints to place").required();
+  add_common(verb, arguments, "unknown", [](const Arguments& given, const DatasetContext& context) {
+    return load_uji_dataset(given.first, given.second, context);
+  });
+}
+
+void add_mcap(Verb& evaluation) {
+  const auto arguments = std::make_shared<Arguments>();
+  Verb verb = evaluation.verb("mcap", "Logs with marks on a site that is already built");
+  verb.examples("  waylode evaluate mcap office.wlsite walk-*.mcap --report report.html");
+  verb.argument("SITE", arguments->first, "Site bundle made by `waylode site build`").required();
+  verb.argument("LOG", arguments->logs, "Logs of any format that `waylode inspect` reads")
+      .required();
+  add_common(verb, arguments, "unknown",
+             [](const Arguments& given, const DatasetContext& context) -> core::Result<Dataset> {
+               auto site = site::load_bundle(given.first);
+               if (!site) return tl::unexpected(site.error());
+               return load_log_dataset(*site, {given.logs.begin(), given.logs.end()}, context);
+             });
+}
+
+}  // namespace
+
+void add_evaluate(Verb& root) {
+  Verb evaluation = root.verb("evaluate", "Compare methods with the truth on recordings");
+  add_ilc(evaluation);
+  add_ipin(evaluation);
+  add_uji(evaluation);
+  add_mcap(evaluation);
+}
+
+}  // namespace waylode::cli

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "datasets/dataset.hpp"
+#include "waylode/core/result.hpp"
+#include "waylode/eval/evaluated_track.hpp"
+#include "waylode/pipeline/method.hpp"
+
+namespace waylode::cli {
+
+struct EvaluationOptions {
+  std::vector<pipeline::Method> methods;
+  bool floor_known = false;
+  unsigned threads = 1;
+};
+
+/// Runs every method on every test, each with nothing it may not know. Truths before the first scan
+/// with a reading are not scored for methods that answer live. Results in the order of the tests,
+/// whatever the number of threads.
+core::Result<std::vector<eval::EvaluatedTrack>> run_evaluation(const Dataset& dataset,
+                                                               const EvaluationOptions& options,
+                                                               const core::ProgressSink& progress);
+
+}  // namespace waylode::cli
