@@ -17,7 +17,7 @@ class FloorFilter {
  public:
   struct Options {
     double change_probability = 0.002;  ///< Of leaving the floor between two scans.
-    double vote_weight = 0.5;  ///< On each scan's log-likelihood; scans repeat each other's errors.
+    double vote_weight = 1.0;  ///< On each scan's log-likelihood; scans repeat each other's errors.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;

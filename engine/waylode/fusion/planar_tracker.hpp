@@ -71,10 +71,10 @@ class PlanarTracker {
     double heading_offset_walk_rad_per_sqrt_step = 0.03;
     double log_scale_walk_per_sqrt_step = 0.005;
     double position_walk_m_per_sqrt_s = 0.15;  ///< Movement that no step tells.
-    double radio_bias_sigma_m = 4.0;
+    double radio_bias_sigma_m = 5.0;
     double radio_bias_tau_s = 30.0;         ///< How long a radio error persists.
     double radio_sigma_scale = 1.2;         ///< On the scan's own sigma.
-    double radio_degrees_of_freedom = 4.0;  ///< Of the Student-t; large is Gaussian.
+    double radio_degrees_of_freedom = 3.0;  ///< Of the Student-t; large is Gaussian.
     double lost_weight_ratio = 0.5;        ///< Scans weighted below this, on average, mean "lost".
     double lost_sigma_m = 20.0;             ///< Doubt added when lost.
 
