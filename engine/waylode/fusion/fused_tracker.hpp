@@ -17,7 +17,7 @@ namespace waylode::fusion {
 struct StateRules {
   double ok_radius_m = 15.0;        ///< 95 % region's semi-major axis up to which the state is ok.
   double show_radius_m = 40.0;      ///< Beyond this the position is unknown.
-  double floor_probability = 0.8;   ///< Less, and the state is low_confidence at best.
+  double floor_probability = 0.7;   ///< Less, and the state is low_confidence at best.
   double known_share_ratio = 0.35;  ///< Less of the signal known: off the surveyed area.
 
   core::Result<void> validate() const;

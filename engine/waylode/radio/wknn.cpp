@@ -93,8 +93,9 @@ core::Result<void> WknnEstimator::Options::validate() const {
   if (!(weight_exponent >= 0.0 && weight_exponent <= 20.0)) {
     return refuse("weight_exponent must be in [0, 20]");
   }
-  if (!(base_sigma_m > 0.0 && spread_gain >= 0.0)) {
-    return refuse("base_sigma_m must be positive and spread_gain not negative");
+  if (!(base_sigma_m > 0.0 && spread_gain >= 0.0 && few_readings >= 0.0 &&
+        floor_few_readings >= 0.0)) {
+    return refuse("base_sigma_m must be positive, spread_gain and few_readings not negative");
   }
   return {};
 }
@@ -106,13 +107,17 @@ std::optional<observation::RadioObservation> WknnEstimator::estimate(
   if (match.floors.empty()) return std::nullopt;
   const std::map<core::FloorId, double> votes = vote_for_floors(match, options_);
 
+  const auto count = static_cast<double>(query.readings.size());
+  const double trust = count / (count + options_.few_readings);
+  const double floor_trust = count / (count + options_.floor_few_readings);
   observation::RadioObservation result;
   result.measured = query.measured;
   result.delivered = query.delivered;
   result.known_share_ratio = static_cast<double>(match.known_share_ratio);
   for (const FloorMatch& floor : match.floors) {
     result.floors.push_back(locate_on_floor(floor, matcher_->map(), options_));
-    result.floors.back().log_likelihood = votes.at(floor.floor);
+    result.floors.back().covariance_m2 /= trust;
+    result.floors.back().log_likelihood = floor_trust * votes.at(floor.floor);
   }
   std::ranges::stable_sort(result.floors, std::ranges::greater{}, &FloorHypothesis::log_likelihood);
   return result;

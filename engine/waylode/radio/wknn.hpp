@@ -19,10 +19,13 @@ class WknnEstimator {
     std::size_t neighbours = 8;        ///< k, 1 to 200.
     std::size_t floor_neighbours = 8;  ///< Nearest over all floors that vote for theirs.
     double weight_exponent = 6.0;      ///< Weight = (d_nearest / d)^exponent.
-    /// Error covariance = base^2 I + spread_gain * weighted scatter of the neighbours.
+    /// Error covariance = (base^2 I + spread_gain * weighted scatter of the neighbours) / trust.
     double base_sigma_m = 3.0;
     double spread_gain = 1.0;
     std::size_t min_readings = 3;  ///< Scans with fewer say too little to be used.
+    /// Trust in a scan of n readings is n / (n + few_readings).
+    double few_readings = 20.0;
+    double floor_few_readings = 5.0;  ///< The same for its vote on the floor.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
