@@ -39,10 +39,13 @@ void GravityFilter::add(const sample::GyroscopeSample& sample) {
   if (up_in_device_ && last_gyroscope_) {
     const double dt_s = core::to_seconds(sample.time - *last_gyroscope_);
     if (dt_s > 0.0 && dt_s <= kLongestGap_s) {
-      // A direction fixed in the world turns against the device's own rotation.
-      const core::Vector3 turned =
-          *up_in_device_ - dt_s * sample.angular_rate_radps.cross(*up_in_device_);
-      up_in_device_ = turned.normalized();
+      // A direction fixed in the world turns against the device's own rotation. To first order
+      // only, up would creep away from the axis of a fast turn.
+      const double rate_radps = sample.angular_rate_radps.norm();
+      if (rate_radps > 0.0) {
+        const core::Vector3 axis = sample.angular_rate_radps / rate_radps;
+        up_in_device_ = (Eigen::AngleAxisd(-rate_radps * dt_s, axis) * *up_in_device_).normalized();
+      }
     }
   }
   last_gyroscope_ = sample.time;

@@ -33,9 +33,7 @@ std::optional<Step> StepDetector::add(core::DeviceTime time, double vertical_mps
   }
   if (value_mps2 > 0.0) return std::nullopt;
 
-  const double threshold_mps2 =
-      std::max(options_.min_peak_mps2, options_.relative_peak_ratio * recent_peak_mps2_);
-  const bool high_enough = peak_mps2_ >= threshold_mps2;
+  const bool high_enough = peak_mps2_ >= threshold_mps2();
   const bool late_enough =
       !last_step_ || core::to_seconds(peak_time_ - *last_step_) >= options_.shortest_interval_s;
   if (high_enough && late_enough) return take_step();
@@ -49,7 +47,7 @@ double StepDetector::smooth(core::DeviceTime time, double vertical_mps2) {
   last_sample_ = time;
   if (gap) {
     stage_one_mps2_ = stage_two_mps2_ = vertical_mps2;
-    peak_mps2_ = 0.0;
+    forget_extremes();
     return vertical_mps2;
   }
   // Two first-order stages: the phase is nearly linear below the cut-off.
@@ -59,9 +57,25 @@ double StepDetector::smooth(core::DeviceTime time, double vertical_mps2) {
   return stage_two_mps2_;
 }
 
+bool StepDetector::continues_walk() const {
+  return last_step_ && core::to_seconds(peak_time_ - *last_step_) <= options_.longest_interval_s;
+}
+
+double StepDetector::threshold_mps2() const {
+  // The peaks of an earlier walk say nothing about this one, which may be gentler.
+  if (!continues_walk()) return options_.min_peak_mps2;
+  return std::max(options_.min_peak_mps2, options_.relative_peak_ratio * recent_peak_mps2_);
+}
+
+void StepDetector::forget_extremes() {
+  lowest_mps2_ = 0.0;
+  peak_mps2_ = 0.0;
+  abs_sum_mps2_ = 0.0;
+  count_ = 0;
+}
+
 Step StepDetector::take_step() {
-  const bool walking =
-      last_step_ && core::to_seconds(peak_time_ - *last_step_) <= options_.longest_interval_s;
+  const bool walking = continues_walk();
   Step step;
   step.time = peak_time_;
   step.swing_mps2 = peak_mps2_ - lowest_mps2_;
@@ -72,10 +86,7 @@ Step StepDetector::take_step() {
   recent_peak_mps2_ =
       walking ? recent_peak_mps2_ + kForget * (peak_mps2_ - recent_peak_mps2_) : peak_mps2_;
   last_step_ = peak_time_;
-  lowest_mps2_ = 0.0;
-  peak_mps2_ = 0.0;
-  abs_sum_mps2_ = 0.0;
-  count_ = 0;
+  forget_extremes();
   return step;
 }
 

@@ -39,6 +39,9 @@ class StepDetector {
 
  private:
   double smooth(core::DeviceTime time, double vertical_mps2);
+  bool continues_walk() const;
+  double threshold_mps2() const;
+  void forget_extremes();
   Step take_step();
 
   Options options_;
