@@ -55,7 +55,11 @@ Argument Verb::argument(const std::string& name, std::optional<std::string>& tar
 
 Argument Verb::argument(const std::string& name, std::vector<std::string>& target,
                         const std::string& help) {
-  return Argument(*app_->add_option(name, target, help));
+  CLI::Option* option = app_->add_option(name, target, help);
+  // An option takes one word each time, so that it never swallows the positional ones after it.
+  if (name.starts_with('-')) option->allow_extra_args(false);
+  if (!target.empty()) option->capture_default_str();
+  return Argument(*option);
 }
 
 Argument Verb::argument(const std::string& name, double& target, const std::string& help) {

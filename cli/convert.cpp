@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "output.hpp"
 #include "waylode/log/log_reader.hpp"
 #include "waylode/log/mcap_writer.hpp"
 
@@ -19,12 +20,13 @@ struct Arguments {
 
 log::McapWriterOptions writer_options(const Arguments& arguments) {
   log::McapWriterOptions options;
-  options.compression = arguments.compression == "none" ? log::McapCompression::kNone
-                                                        : log::McapCompression::kZstd;
+  options.compression =
+      arguments.compression == "none" ? log::McapCompression::kNone : log::McapCompression::kZstd;
   return options;
 }
 
 core::Result<void> convert(const Arguments& arguments) {
+  if (auto replaceable = check_replaceable(arguments.out); !replaceable) return replaceable;
   const auto recording = log::load_recording(arguments.log);
   if (!recording) return tl::unexpected(recording.error());
   auto writer =

@@ -43,26 +43,26 @@ std::string to_json(const std::string& path, const LogSummary& summary) {
   for (const double share : kAgeShares) {
     ages[fmt::format("p{:.0f}", 100.0 * share)] = summary.wifi_age_quantile_s(share);
   }
-  const Json out = {
-      {"log", path},
-      {"format", log::to_string(report.format)},
-      {"device_brand", text_or_null(report.info.device_brand)},
-      {"device_model", text_or_null(report.info.device_model)},
-      {"site", text_or_null(report.info.site)},
-      {"floor", text_or_null(report.info.floor)},
-      {"start_utc", optional_or_null(utc_text(report.info.start_utc))},
-      {"duration_s", summary.duration_s()},
-      {"bytes_read", report.bytes_read},
-      {"kinds", kinds},
-      {"wifi", {{"readings", summary.wifi_readings},
-                {"transmitters", summary.wifi_transmitters.size()},
-                {"age_s", summary.wifi_ages_s.empty() ? Json(nullptr) : ages}}},
-      {"bluetooth", {{"transmitters", summary.bluetooth_transmitters.size()}}},
-      {"marks_by_floor", summary.marks_by_floor},
-      {"rejected", report.rejected},
-      {"ignored", report.ignored},
-      {"recovered_run_on", report.recovered_run_on},
-      {"truncated", optional_or_null(report.truncated)}};
+  const Json out = {{"log", path},
+                    {"format", log::to_string(report.format)},
+                    {"device_brand", text_or_null(report.info.device_brand)},
+                    {"device_model", text_or_null(report.info.device_model)},
+                    {"site", text_or_null(report.info.site)},
+                    {"floor", text_or_null(report.info.floor)},
+                    {"start_utc", optional_or_null(utc_text(report.info.start_utc))},
+                    {"duration_s", summary.duration_s()},
+                    {"bytes_read", report.bytes_read},
+                    {"kinds", kinds},
+                    {"wifi",
+                     {{"readings", summary.wifi_readings},
+                      {"transmitters", summary.wifi_transmitters.size()},
+                      {"age_s", summary.wifi_ages_s.empty() ? Json(nullptr) : ages}}},
+                    {"bluetooth", {{"transmitters", summary.bluetooth_transmitters.size()}}},
+                    {"marks_by_floor", summary.marks_by_floor},
+                    {"rejected", report.rejected},
+                    {"ignored", report.ignored},
+                    {"recovered_run_on", report.recovered_run_on},
+                    {"truncated", optional_or_null(report.truncated)}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -70,8 +70,8 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : text;
 
 std::string header_text(const std::string& path, const LogSummary& summary) {
   const sample::RecordingInfo& info = summary.report.info;
-  std::string text = fmt::format("log        {}\nformat     {}\n", path,
-                                 log::to_string(summary.report.format));
+  std::string text =
+      fmt::format("log        {}\nformat     {}\n", path, log::to_string(summary.report.format));
   text += fmt::format("device     {} {}\n", or_dash(info.device_brand), or_dash(info.device_model));
   text += fmt::format("place      site {}, floor {}\n", or_dash(info.site), or_dash(info.floor));
   text += fmt::format("start      {}\n", utc_text(info.start_utc).value_or("-"));
@@ -114,7 +114,8 @@ std::string trouble_text(const log::LogReport& report) {
     text += fmt::format("ignored    {} x {}\n", count, kind);
   }
   if (report.recovered_run_on > 0) {
-    text += fmt::format("recovered  {} records from lines that held two\n", report.recovered_run_on);
+    text +=
+        fmt::format("recovered  {} records from lines that held two\n", report.recovered_run_on);
   }
   if (report.truncated) text += fmt::format("truncated  {}\n", *report.truncated);
   return text == "\n" ? "\nevery record was understood\n" : text;

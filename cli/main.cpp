@@ -23,8 +23,14 @@ constexpr const char* kFooter =
 
 void add_verbs(waylode::cli::Verb root) {
   using namespace waylode::cli;
+  add_simulate(root);
   add_inspect(root);
+  add_convert(root);
+  add_site(root);
+  add_track(root);
+  add_evaluate(root);
   add_methods(root);
+  add_config(root);
   add_version(root);
 }
 

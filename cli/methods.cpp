@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
-#include "waylode/pipeline/method.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "waylode/pipeline/method.hpp"
 
 namespace waylode::cli {
 namespace {

@@ -9,10 +9,9 @@ namespace {
 
 using Visit = std::function<void(const OptionRef&)>;
 
-/// Visits the members of one table. `tiny` stands for "above zero".
-constexpr double kTiny = 1e-9;
 constexpr double kHuge = 1e6;
 
+/// Visits the members of one table.
 class Table {
  public:
   Table(std::string_view name, const Visit& visit) : name_(name), visit_(&visit) {}
@@ -42,19 +41,21 @@ Choice distance_choice(radio::Distance& distance) {
 
 void visit_radio(Options& options, const Visit& visit) {
   Table("scan", visit)
-      .number("max_age_s", options.scan.max_age_s, kTiny, 60.0,
+      .number("max_age_s", options.scan.max_age_s, kAboveZero, 60.0,
               "Older Wi-Fi readings are left out of a scan.")
-      .number("fresh_age_s", options.scan.fresh_age_s, kTiny, 60.0,
+      .number("fresh_age_s", options.scan.fresh_age_s, kAboveZero, 60.0,
               "Readings this fresh date the scan; all of them do when none is.")
       .number("ble_window_s", options.scan.ble_window_s, 0.0, 60.0,
-              "Bluetooth advertisements this recent join a scan; 0 leaves Bluetooth out.");
+              "Bluetooth advertisements this recent join a scan; 0 leaves Bluetooth out.")
+      .number("bluetooth_alone_after_s", options.bluetooth_alone_after_s, kAboveZero, kHuge,
+              "Without Wi-Fi this long, Bluetooth is matched alone.");
   Table("matcher", visit)
       .choice("distance", distance_choice(options.matcher.distance), "How two scans are compared.")
       .number("floor_dbm", options.matcher.floor_dbm, -127.5, -50.5,
               "The RSSI that counts as just heard; set it to the weakest the phones report.")
-      .number("exponent", options.matcher.exponent, kTiny, 10.0,
+      .number("exponent", options.matcher.exponent, kAboveZero, 10.0,
               "Strength = (share of the way from floor_dbm to 0)^exponent; more trusts loud ones.")
-      .number("age_decay_per_s", options.matcher.age_decay_per_s, kTiny, 1.0,
+      .number("age_decay_per_s", options.matcher.age_decay_per_s, kAboveZero, 1.0,
               "Strength fades by this factor per second of age beyond one; 1 switches it off.");
   Table("wknn", visit)
       .number("neighbours", options.wknn.neighbours, 1, 200, "Nearest fingerprints averaged.")
@@ -62,52 +63,56 @@ void visit_radio(Options& options, const Visit& visit) {
               "Nearest over all floors that vote for theirs; at most `neighbours`.")
       .number("weight_exponent", options.wknn.weight_exponent, 0.0, 20.0,
               "Weight = (nearest distance / distance)^exponent; 0 weighs all alike.")
-      .number("base_sigma_m", options.wknn.base_sigma_m, kTiny, kHuge,
+      .number("base_sigma_m", options.wknn.base_sigma_m, kAboveZero, kHuge,
               "Error of a match per axis where all neighbours agree.")
       .number("spread_gain", options.wknn.spread_gain, 0.0, kHuge,
               "Share of the neighbours' scatter that adds to the error's covariance.")
       .number("min_readings", options.wknn.min_readings, 0, 10000,
-              "Scans with fewer readings are not used.");
+              "Scans with fewer readings are not used.")
+      .number("few_readings", options.wknn.few_readings, 0.0, kHuge,
+              "Trust in a scan of n readings is n / (n + few_readings).")
+      .number("floor_few_readings", options.wknn.floor_few_readings, 0.0, kHuge,
+              "The same for its vote on the floor.");
 }
 
 void visit_heading(pdr::HeadingFilter::Options& heading, const Visit& visit) {
   Table("pdr.heading", visit)
-      .number("initial_sigma_rad", heading.initial_sigma_rad, kTiny, kHuge,
+      .number("initial_sigma_rad", heading.initial_sigma_rad, kAboveZero, kHuge,
               "Doubt of the first compass heading.")
-      .number("gyro_noise_rad_per_sqrt_s", heading.gyro_noise_rad_per_sqrt_s, kTiny, kHuge,
+      .number("gyro_noise_rad_per_sqrt_s", heading.gyro_noise_rad_per_sqrt_s, kAboveZero, kHuge,
               "Drift of the gyroscope's heading, a random walk.")
-      .number("initial_bias_sigma_radps", heading.initial_bias_sigma_radps, kTiny, kHuge,
+      .number("initial_bias_sigma_radps", heading.initial_bias_sigma_radps, kAboveZero, kHuge,
               "Doubt of the gyroscope's bias at the start.")
       .number("bias_walk_radps_per_sqrt_s", heading.bias_walk_radps_per_sqrt_s, 0.0, kHuge,
               "How fast the gyroscope's bias wanders.")
       .number("compass_interval_s", heading.compass_interval_s, 0.0, kHuge,
               "The compass is asked at most this often.")
-      .number("rotation_sigma_rad", heading.rotation_sigma_rad, kTiny, kHuge,
+      .number("rotation_sigma_rad", heading.rotation_sigma_rad, kAboveZero, kHuge,
               "Error of the phone's rotation vector; less where the field is undisturbed.")
-      .number("magnetometer_sigma_rad", heading.magnetometer_sigma_rad, kTiny, kHuge,
+      .number("magnetometer_sigma_rad", heading.magnetometer_sigma_rad, kAboveZero, kHuge,
               "Error of the levelled field, used where there is no rotation vector.");
 }
 
 void visit_pdr(Options& options, const Visit& visit) {
   Table("pdr", visit)
-      .number("step_heading_sigma_rad", options.pdr.step_heading_sigma_rad, kTiny, kHuge,
+      .number("step_heading_sigma_rad", options.pdr.step_heading_sigma_rad, kAboveZero, kHuge,
               "Sway and drift of the heading from one step to the next.")
-      .number("step_length_sigma_ratio", options.pdr.step_length_sigma_ratio, kTiny, kHuge,
+      .number("step_length_sigma_ratio", options.pdr.step_length_sigma_ratio, kAboveZero, kHuge,
               "Variation of steps around the person's mean.");
   Table("pdr.gravity", visit)
-      .number("accelerometer_tau_s", options.pdr.gravity.accelerometer_tau_s, kTiny, 60.0,
+      .number("accelerometer_tau_s", options.pdr.gravity.accelerometer_tau_s, kAboveZero, 60.0,
               "Longer: less of the walking bounce; shorter: less gyroscope drift.");
   visit_heading(options.pdr.heading, visit);
   Table("pdr.step", visit)
-      .number("low_pass_hz", options.pdr.step.low_pass_hz, kTiny, 1000.0,
+      .number("low_pass_hz", options.pdr.step.low_pass_hz, kAboveZero, 1000.0,
               "Cut-off of the smoothing; cadence is below 3 Hz.")
-      .number("min_peak_mps2", options.pdr.step.min_peak_mps2, kTiny, 100.0,
+      .number("min_peak_mps2", options.pdr.step.min_peak_mps2, kAboveZero, 100.0,
               "Lower peaks are never steps; raise it when standing counts steps.")
       .number("relative_peak_ratio", options.pdr.step.relative_peak_ratio, 0.0, 0.999,
               "Of the recent peaks, what a new one must reach.")
-      .number("shortest_interval_s", options.pdr.step.shortest_interval_s, kTiny, 10.0,
+      .number("shortest_interval_s", options.pdr.step.shortest_interval_s, kAboveZero, 10.0,
               "Between two steps.")
-      .number("longest_interval_s", options.pdr.step.longest_interval_s, kTiny, 60.0,
+      .number("longest_interval_s", options.pdr.step.longest_interval_s, kAboveZero, 60.0,
               "A longer pause starts a new walk.");
   Table("pdr.stride", visit)
       .number("constant_m", options.pdr.stride.constant_m, -10.0, 10.0, "Part of every step.")
@@ -115,31 +120,31 @@ void visit_pdr(Options& options, const Visit& visit) {
               "m per (m/s2)^(1/4) of vertical swing.")
       .number("cadence_gain_m_s", options.pdr.stride.cadence_gain_m_s, -10.0, 10.0,
               "m per Hz of cadence above 1.9 Hz.")
-      .number("shortest_m", options.pdr.stride.shortest_m, kTiny, 10.0, "Shortest step told.")
-      .number("longest_m", options.pdr.stride.longest_m, kTiny, 10.0, "Longest step told.");
+      .number("shortest_m", options.pdr.stride.shortest_m, kAboveZero, 10.0, "Shortest step told.")
+      .number("longest_m", options.pdr.stride.longest_m, kAboveZero, 10.0, "Longest step told.");
 }
 
 void visit_planar(fusion::PlanarTracker::Options& planar, const Visit& visit) {
   Table("fused.planar", visit)
-      .number("start_sigma_m", planar.start_sigma_m, kTiny, kHuge,
+      .number("start_sigma_m", planar.start_sigma_m, kAboveZero, kHuge,
               "Doubt around the first scan's position before that scan is used.")
-      .number("heading_offset_sigma_rad", planar.heading_offset_sigma_rad, kTiny, kHuge,
+      .number("heading_offset_sigma_rad", planar.heading_offset_sigma_rad, kAboveZero, kHuge,
               "How far walking and phone headings may differ at the start.")
-      .number("log_scale_sigma", planar.log_scale_sigma, kTiny, kHuge,
+      .number("log_scale_sigma", planar.log_scale_sigma, kAboveZero, kHuge,
               "Spread of people's step lengths, as a logarithm.")
       .number("heading_offset_walk_rad_per_sqrt_step", planar.heading_offset_walk_rad_per_sqrt_step,
               0.0, kHuge, "How fast the heading offset changes.")
       .number("log_scale_walk_per_sqrt_step", planar.log_scale_walk_per_sqrt_step, 0.0, kHuge,
               "How fast a person's step length changes.")
-      .number("position_walk_m_per_sqrt_s", planar.position_walk_m_per_sqrt_s, kTiny, kHuge,
+      .number("position_walk_m_per_sqrt_s", planar.position_walk_m_per_sqrt_s, kAboveZero, kHuge,
               "Movement that no step tells; more for phones without motion sensors.")
-      .number("radio_bias_sigma_m", planar.radio_bias_sigma_m, kTiny, kHuge,
+      .number("radio_bias_sigma_m", planar.radio_bias_sigma_m, kAboveZero, kHuge,
               "The part of the radio error that persists from scan to scan.")
-      .number("radio_bias_tau_s", planar.radio_bias_tau_s, kTiny, kHuge,
+      .number("radio_bias_tau_s", planar.radio_bias_tau_s, kAboveZero, kHuge,
               "How long a radio error persists.")
-      .number("radio_sigma_scale", planar.radio_sigma_scale, kTiny, kHuge,
+      .number("radio_sigma_scale", planar.radio_sigma_scale, kAboveZero, kHuge,
               "Multiplies the error a scan states for itself.")
-      .number("radio_degrees_of_freedom", planar.radio_degrees_of_freedom, kTiny, kHuge,
+      .number("radio_degrees_of_freedom", planar.radio_degrees_of_freedom, kAboveZero, kHuge,
               "Of the Student-t error; small doubts far-off scans, large is Gaussian.")
       .number("lost_weight_ratio", planar.lost_weight_ratio, 0.0, 0.999,
               "Scans weighted below this on average mean the track is lost.")
@@ -149,14 +154,14 @@ void visit_planar(fusion::PlanarTracker::Options& planar, const Visit& visit) {
 void visit_fused(Options& options, const Visit& visit) {
   visit_planar(options.fused.planar, visit);
   Table("fused.floor", visit)
-      .number("change_probability", options.fused.floor.change_probability, kTiny, 0.999,
+      .number("change_probability", options.fused.floor.change_probability, kAboveZero, 0.999,
               "Of leaving the floor between two scans.")
-      .number("vote_weight", options.fused.floor.vote_weight, kTiny, kHuge,
+      .number("vote_weight", options.fused.floor.vote_weight, kAboveZero, kHuge,
               "On each scan's log-likelihood; below 1 since scans repeat each other's errors.");
   Table("fused.state", visit)
-      .number("ok_radius_m", options.fused.state.ok_radius_m, kTiny, kHuge,
+      .number("ok_radius_m", options.fused.state.ok_radius_m, kAboveZero, kHuge,
               "Semi-major axis of the 95 % region up to which a fix is `ok`.")
-      .number("show_radius_m", options.fused.state.show_radius_m, kTiny, kHuge,
+      .number("show_radius_m", options.fused.state.show_radius_m, kAboveZero, kHuge,
               "Beyond this axis a fix is `unknown`.")
       .number("floor_probability", options.fused.state.floor_probability, 0.0, 1.0,
               "With less, a fix is `low_confidence` at best.")
@@ -171,20 +176,20 @@ void visit_survey(Options& options, const Visit& visit) {
   Table("labels", visit)
       .number("widest_scale", options.labels.widest_scale, 1.000001, kHuge,
               "Steps may be this much longer or shorter than the marks say.")
-      .number("shortest_shaped_m", options.labels.shortest_shaped_m, kTiny, kHuge,
+      .number("shortest_shaped_m", options.labels.shortest_shaped_m, kAboveZero, kHuge,
               "Marks closer than this do not tell a direction.")
-      .number("fastest_mps", options.labels.fastest_mps, kTiny, kHuge,
+      .number("fastest_mps", options.labels.fastest_mps, kAboveZero, kHuge,
               "A stretch walked faster gives no labels.")
-      .number("longest_gap_s", options.labels.longest_gap_s, kTiny, kHuge,
+      .number("longest_gap_s", options.labels.longest_gap_s, kAboveZero, kHuge,
               "A longer stretch between marks gives no labels.")
-      .number("mark_sigma_m", options.labels.mark_sigma_m, kTiny, kHuge,
+      .number("mark_sigma_m", options.labels.mark_sigma_m, kAboveZero, kHuge,
               "Error of a mark per axis.")
       .number("drift_sigma_ratio", options.labels.drift_sigma_ratio, 0.0, kHuge,
               "Error of a label per metre from the nearer mark.");
   Table("moving", visit)
       .number("loud_dbm", options.moving.loud_dbm, -120.0, -0.5,
               "Heard this loudly, a transmitter is near.")
-      .number("farthest_m", options.moving.farthest_m, kTiny, kHuge,
+      .number("farthest_m", options.moving.farthest_m, kAboveZero, kHuge,
               "Loud places farther apart mean that it moves; it is left out of the map.");
 }
 

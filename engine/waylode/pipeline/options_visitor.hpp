@@ -19,6 +19,9 @@ struct Choice {
   std::function<void(std::size_t)> set;
 };
 
+/// As `smallest`, stands for "above zero".
+inline constexpr double kAboveZero = 1e-9;
+
 /// One tunable of an Options object, as configuration files see it.
 struct OptionRef {
   std::string_view table;  ///< "fused.planar".

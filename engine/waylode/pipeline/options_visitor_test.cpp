@@ -43,7 +43,7 @@ TEST(ForEachOption, VisitsEveryMemberOfEveryComponent) {
   std::map<std::string, std::size_t> visited;
   for_each_option(options, [&](const OptionRef& option) { ++visited[std::string(option.table)]; });
   const std::map<std::string, std::size_t> expected = {
-      {"scan", member_count<radio::ScanAssembler::Options>()},
+      {"scan", member_count<radio::ScanAssembler::Options>() + 1},  // And bluetooth_alone_after_s.
       {"matcher", member_count<radio::Matcher::Options>()},
       {"wknn", member_count<radio::WknnEstimator::Options>()},
       {"pdr", member_count<pdr::DeadReckoning::Options>() - 4},  // Less its four components.
@@ -58,7 +58,7 @@ TEST(ForEachOption, VisitsEveryMemberOfEveryComponent) {
       {"labels", member_count<survey::LabelledPath::Options>()},
       {"moving", member_count<survey::MovingTransmitterFilter::Options>()}};
   EXPECT_EQ(visited, expected);
-  EXPECT_EQ(member_count<Options>(), 8U);
+  EXPECT_EQ(member_count<Options>(), 9U);
 }
 
 TEST(ForEachOption, DefaultsLieInTheirRanges) {

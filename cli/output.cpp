@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "output.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "command.hpp"
+#include "waylode/core/file.hpp"
+
+namespace waylode::cli {
+
+core::Result<void> write_output(const std::optional<std::string>& path, std::string_view text) {
+  if (!path) {
+    print(text);
+    return {};
+  }
+  if (auto replaceable = check_replaceable(*path); !replaceable) return replaceable;
+  return core::write_file_atomically(*path, text);
+}
+
+core::Result<void> check_replaceable(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return {};
+  return core::fail(core::ErrorCode::kFileUnwritable,
+                    "is a folder or a device; name a file to write", path);
+}
+
+}  // namespace waylode::cli
