@@ -78,6 +78,10 @@ void MapBuilder::add(const SurveyedRecording& recording) {
 }
 
 void MapBuilder::add(const sample::FingerprintRow& row, core::FloorId floor) {
+  if (floor.index >= parts_.floors.size()) {
+    quality_.notes.push_back("a row of floor '" + row.floor + "': not a floor of this site");
+    return;
+  }
   Instance instance;
   instance.record.floor = floor.index;
   instance.record.x_m = static_cast<float>(row.position_m.x());
@@ -131,30 +135,36 @@ void MapBuilder::note_stretches(const LabelledPath& path) {
 }
 
 void MapBuilder::learn_headings() {
+  // Marks are on the floor frame; headings are on the site frame, which all floors share.
+  std::vector<std::vector<LabelledPath::Stretch>> on_site = stretches_;
   std::vector<LabelledPath::Stretch> all;
-  for (const auto& floor : stretches_) all.insert(all.end(), floor.begin(), floor.end());
-  const std::optional<double> site_offset = heading_offset(all);
   for (std::size_t i = 0; i < parts_.floors.size(); ++i) {
-    const std::optional<double> own = heading_offset(stretches_[i]);
-    const double turn_rad = own.value_or(site_offset.value_or(0.0));
-    // Marks are on the floor frame; headings are on the site frame.
     const core::Vector2 axis = parts_.floors[i].site_from_floor.linear.col(0);
-    parts_.floors[i].heading_offset_rad =
-        core::wrap_angle(turn_rad + std::atan2(axis.y(), axis.x()));
+    for (LabelledPath::Stretch& stretch : on_site[i]) {
+      stretch.turn_rad = core::wrap_angle(stretch.turn_rad + std::atan2(axis.y(), axis.x()));
+      all.push_back(stretch);
+    }
+  }
+  const double of_site_rad = heading_offset(all).value_or(0.0);
+  for (std::size_t i = 0; i < parts_.floors.size(); ++i) {
+    parts_.floors[i].heading_offset_rad = heading_offset(on_site[i]).value_or(of_site_rad);
   }
 }
 
 core::Result<SurveyedSite> MapBuilder::build() {
-  if (instances_.empty()) {
-    std::string why = quality_.notes.empty() ? "no recording was given" : quality_.notes.front();
+  SurveyedSite result{parts_, quality_};
+  result.parts.radio_map = freeze_radio_map(result.quality);
+  if (result.parts.radio_map.fingerprints.empty()) {
+    std::string why = "no recording was given";
+    if (!quality_.notes.empty()) why = quality_.notes.front();
+    if (!instances_.empty()) why = "all transmitters heard move about";
     return core::fail(core::ErrorCode::kSurveyInsufficient,
                       "no fingerprint could be made (" + why +
                           "); survey with Wi-Fi on and mark at least two places per walk",
                       parts_.name);
   }
   learn_headings();
-  SurveyedSite result{parts_, quality_};
-  result.parts.radio_map = freeze_radio_map(result.quality);
+  result.parts.floors = parts_.floors;
   result.quality.floors = floor_quality(result.parts, stretches_, recordings_on_floor_);
   return result;
 }

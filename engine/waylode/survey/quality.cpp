@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "waylode/core/angle.hpp"
+#include "waylode/site/floor_geometry.hpp"
 
 namespace waylode::survey {
 namespace {
@@ -30,24 +31,6 @@ double step_scale(std::span<const LabelledPath::Stretch> stretches) {
     if (is_telling(stretch)) scales.push_back(stretch.marked_m / stretch.reckoned_m);
   }
   return scales.empty() ? 1.0 : median(std::move(scales));
-}
-
-/// Even-odd rule over all rings.
-bool inside(const site::Polygon& polygon, const core::Vector2& point) {
-  bool result = false;
-  const auto cross_ring = [&](const site::Ring& ring) {
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const bool straddles = (ring[i].y() > point.y()) != (ring[j].y() > point.y());
-      if (straddles && point.x() < (ring[j].x() - ring[i].x()) * (point.y() - ring[i].y()) /
-                                           (ring[j].y() - ring[i].y()) +
-                                       ring[i].x()) {
-        result = !result;
-      }
-    }
-  };
-  cross_ring(polygon.outer);
-  for (const site::Ring& hole : polygon.holes) cross_ring(hole);
-  return result;
 }
 
 }  // namespace
@@ -106,16 +89,13 @@ double covered_ratio(const site::Floor& floor,
       }
     }
   }
+  const site::FloorGeometry geometry(floor.plan);
   std::size_t walkable = 0;
   std::size_t covered = 0;
   for (int r = 0; r < rows; ++r) {
     for (int q = 0; q < columns; ++q) {
       const core::Vector2 point = box.min_m + core::Vector2(q, r);
-      const bool open = floor.plan.walkable.empty() ||
-                        std::ranges::any_of(floor.plan.walkable, [&](const site::Polygon& polygon) {
-                          return inside(polygon, point);
-                        });
-      if (!open) continue;
+      if (!floor.plan.walkable.empty() && !geometry.is_walkable(point)) continue;
       ++walkable;
       if (cell(q, r) != 0) ++covered;
     }
