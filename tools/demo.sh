@@ -20,18 +20,21 @@ say "Simulate a building, a surveyor and three walkers"
 run "$waylode" simulate testdata/demo/demo_scenario.toml --out "$demo/logs"
 
 say "Build the site from the plan and the surveyor's recordings"
-run "$waylode" site build "$demo/logs/plan.geojson" "$demo"/logs/survey*.mcap --out "$demo/demo.wlsite"
+run "$waylode" site build "$demo/demo.wlsite" --name demo \
+  --plan "$demo/logs/plan-F1.geojson" --plan "$demo/logs/plan-F2.geojson" "$demo"/logs/survey*.mcap
 
 say "Position the walkers"
-for log in "$demo"/logs/walker*.mcap; do
+walkers=$(ls "$demo"/logs/*.mcap | grep -v /survey)
+for log in $walkers; do
   name=$(basename "$log" .mcap)
   run "$waylode" track "$log" --site "$demo/demo.wlsite" --method fused --format geojson \
     --out "$demo/$name.geojson"
 done
 
 say "Compare with truth"
-run "$waylode" evaluate mcap "$demo/demo.wlsite" "$demo"/logs/walker*.mcap \
-  --methods wknn,fused,smoothed --out "$demo/errors.json" --report "$demo/report.html"
+# shellcheck disable=SC2086  # The names hold no spaces.
+run "$waylode" evaluate mcap "$demo/demo.wlsite" $walkers \
+  --methods wknn,fused,smoothed --out "$demo/evaluation.json" --report "$demo/report.html"
 
 echo
 echo "Open $demo/report.html in a browser."

@@ -1,0 +1,433 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Waylode authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the built program ($WAYLODE_PROGRAM) as a user would. Exit statuses: contract/errors.toml."""
+import csv
+import io
+import json
+import math
+import os
+import resource
+import shutil
+import subprocess
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ["WAYLODE_PROGRAM"]
+ILC_LOG = ROOT / "testdata/ilc_mini/mini.txt"
+SCENARIO = """
+name = "corridor"
+seed = 11
+
+[building]
+name = "corridor"
+cell_m = 1.0
+drawing = '''
+floor G level 0 elevation_m 0
+##############################
+#1.A.......2...B...........C3#
+#............................#
+#4.........5...D............6#
+##############################
+'''
+
+[[walker]]
+name = "survey"
+survey = true
+route = ["1", "2", "3", "6", "5", "4", "1", "3"]
+
+[[walker]]
+name = "guest"
+route = ["4", "5", "6", "3", "2", "1"]
+start_s = 600.0
+"""
+VERBS = ["simulate", "inspect", "convert", "site", "track", "evaluate", "methods", "config", "version"]
+
+
+def errors() -> dict:
+    return tomllib.loads((ROOT / "contract/errors.toml").read_text(encoding="utf-8"))
+
+
+def run(*words, **options) -> subprocess.CompletedProcess:
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=60,
+                          check=False, **options)
+
+
+def limit_file_size():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+
+class CliTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="waylode-cli-"))
+        (cls.folder / "scenario.toml").write_text(SCENARIO, encoding="utf-8")
+        cls.sim = cls.folder / "sim"
+        cls.site = cls.folder / "corridor.wlsite"
+        cls.simulated = run("simulate", cls.folder / "scenario.toml", "--out", cls.sim)
+        cls.built = run("site", "build", cls.site, "--name", "corridor", "--plan",
+                        cls.sim / "plan-G.geojson", cls.sim / "survey.mcap", "--json")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def file(self, name: str, content: bytes) -> Path:
+        path = self.folder / name
+        path.write_bytes(content)
+        return path
+
+    def assert_error(self, result, name: str, *mentions):
+        """One line on stderr that names the error and the place; the registry's exit status."""
+        self.assertEqual(result.returncode, errors()[name]["exit"], result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertRegex(result.stderr, r"\Awaylode: [^\n]+ \[" + name + r"\]\n\Z")
+        for mention in mentions:
+            self.assertIn(str(mention), result.stderr)
+
+
+class Help(CliTest):
+    def test_root_lists_the_verbs_in_the_order_of_the_work(self):
+        result = run("--help")
+        self.assertEqual(result.returncode, 0)
+        listed = result.stdout[result.stdout.index("Subcommands:"):]
+        places = [listed.index("\n  " + verb + " ") for verb in VERBS]
+        self.assertEqual(places, sorted(places))
+
+    def test_every_verb_explains_itself_with_an_example(self):
+        for words in [["simulate"], ["inspect"], ["convert"], ["site", "build"], ["site", "show"],
+                      ["track"], ["evaluate", "mcap"], ["methods"], ["config", "dump"],
+                      ["config", "check"]]:
+            with self.subTest(words=words):
+                result = run(*words, "--help")
+                self.assertEqual(result.returncode, 0)
+                self.assertIn("Example:\n  waylode " + " ".join(words), result.stdout)
+
+    def test_usage_errors_are_one_line_and_status_2(self):
+        for words in [[], ["fly"], ["inspect"], ["methods", "--yaml"],
+                      ["track", "x", "--site", "y", "--format", "kml"]]:
+            with self.subTest(words=words):
+                self.assert_error(run(*words), "invalid_argument", "--help")
+
+    def test_version_is_told(self):
+        self.assertRegex(run("version").stdout, r"\Awaylode \d+\.\d+\.\d+\n\Z")
+
+
+class Methods(CliTest):
+    def test_json_lists_what_the_table_lists(self):
+        listed = [method["name"] for method in json.loads(run("methods", "--json").stdout)["methods"]]
+        table = [line.split()[0] for line in run("methods").stdout.splitlines()[1:]]
+        self.assertEqual(listed, table)
+        self.assertLessEqual({"wknn", "pdr", "fused", "smoothed"}, set(listed))
+
+
+class Inspect(CliTest):
+    def test_json_counts_the_records_of_the_file(self):
+        told = json.loads(run("inspect", ILC_LOG, "--json").stdout)
+        lines = ILC_LOG.read_text(encoding="utf-8").splitlines()
+        counted = [line for line in lines if "\tTYPE_WAYPOINT\t" in line]
+        readings = [line for line in lines if "\tTYPE_WIFI\t" in line]
+        self.assertEqual(told["format"], "ilc")
+        self.assertEqual(told["kinds"]["waypoint"]["n"], len(counted))
+        self.assertEqual(told["wifi"]["readings"], len(readings))
+        self.assertEqual(told["wifi"]["transmitters"],
+                         len({line.split("\t")[3] for line in readings}))
+
+    def test_human_output_names_format_and_marks(self):
+        result = run("inspect", ILC_LOG)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("format     ilc", result.stdout)
+        self.assertIn("marks      3", result.stdout)
+
+    def test_rejected_records_are_counted_by_reason(self):
+        text = ILC_LOG.read_bytes() + b"1574659531598\tTYPE_ACCELEROMETER\tnan\t1\t2\t3\n"
+        told = json.loads(run("inspect", self.file("bad_record.txt", text), "--json").stdout)
+        self.assertEqual(sum(told["rejected"].values()), 1)
+
+    def test_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([PROGRAM, "inspect", str(ILC_LOG)], stdout=full, text=True,
+                                    stderr=subprocess.PIPE, check=False)
+        self.assertEqual(result.returncode, errors()["file_unwritable"]["exit"])
+        self.assertIn("standard output", result.stderr)
+
+
+class BadInput(CliTest):
+    def test_missing_file(self):
+        missing = self.folder / "nowhere.txt"
+        self.assert_error(run("inspect", missing), "file_not_found", missing)
+
+    def test_empty_file(self):
+        empty = self.file("empty.txt", b"")
+        self.assert_error(run("inspect", empty), "log_empty", empty)
+
+    def test_binary_file(self):
+        binary = self.file("binary.bin", bytes(range(256)) * 40)
+        self.assert_error(run("inspect", binary), "log_unrecognised", binary)
+
+    def test_folder_instead_of_a_log(self):
+        result = run("inspect", self.folder)
+        self.assertIn(result.returncode, (3, 4))
+        self.assertRegex(result.stderr, r"\Awaylode: [^\n]+\n\Z")
+        self.assertIn(str(self.folder), result.stderr)
+
+    def test_corrupt_bundle(self):
+        whole = bytearray(self.site.read_bytes())
+        whole[len(whole) // 2] ^= 0x10
+        corrupt = self.file("corrupt.wlsite", bytes(whole))
+        for verb in (["site", "show", corrupt], ["track", self.sim / "guest.mcap", "--site", corrupt]):
+            self.assert_error(run(*verb), "bundle_corrupt", corrupt)
+        self.assert_error(run("site", "show", self.file("log.wlsite", ILC_LOG.read_bytes())),
+                          "bundle_corrupt")
+
+    def test_site_without_map(self):
+        bare = self.folder / "bare.wlsite"
+        self.assertEqual(run("site", "build", bare, "--name", "bare", "--plan",
+                             self.sim / "plan-G.geojson").returncode, 0)
+        self.assert_error(run("track", self.sim / "guest.mcap", "--site", bare), "map_missing", "bare")
+
+    def test_log_without_wifi_names_the_remedy(self):
+        lines = ILC_LOG.read_text(encoding="utf-8").splitlines(keepends=True)
+        silent = self.file("silent.txt",
+                           "".join(x for x in lines if "TYPE_WIFI" not in x).encode())
+        self.assert_error(run("track", silent, "--site", self.site), "log_lacks_records", silent,
+                          "Wi-Fi")
+        walked = run("track", silent, "--site", self.site, "--method", "pdr", "--start", "G,2,2",
+                     "--format", "csv")
+        self.assertEqual(walked.returncode, 0, walked.stderr)
+
+    def test_survey_without_marks(self):
+        lines = ILC_LOG.read_text(encoding="utf-8").splitlines(keepends=True)
+        unmarked = self.file("unmarked.txt",
+                             "".join(x for x in lines if "TYPE_WAYPOINT" not in x).encode())
+        out = self.folder / "unmarked.wlsite"
+        self.assert_error(run("site", "build", out, "--name", "x", unmarked), "survey_insufficient")
+        self.assertFalse(out.exists())
+
+    def test_broken_plan(self):
+        plan = self.file("plan.geojson", b'{"type": "FeatureCollection"')
+        self.assert_error(run("site", "build", self.folder / "x.wlsite", "--name", "x", "--plan", plan),
+                          "plan_invalid", plan)
+
+    def test_broken_scenario(self):
+        scenario = self.file("broken.toml", b'name = "x"\nsped = 3\n')
+        self.assert_error(run("simulate", scenario, "--out", self.folder / "never"),
+                          "scenario_invalid", scenario)
+        self.assertFalse((self.folder / "never").exists())
+
+    def test_unknown_method_and_floor(self):
+        guest = self.sim / "guest.mcap"
+        self.assert_error(run("track", guest, "--site", self.site, "--method", "magic"),
+                          "method_unknown", "wknn")
+        self.assert_error(run("track", guest, "--site", self.site, "--floor", "F9"),
+                          "floor_unknown", "F9", "G")
+        self.assert_error(run("track", guest, "--site", self.site, "--method", "pdr"),
+                          "invalid_argument", "start")
+        for start in ("G,1", "G,1,nan", "G,a,2"):
+            self.assert_error(run("track", guest, "--site", self.site, "--method", "pdr", "--start",
+                                  start), "invalid_argument", start)
+
+
+class FullDisk(CliTest):
+    def assert_leaves_nothing(self, words, out: Path):
+        before = sorted(self.folder.rglob("*"))
+        result = run(*words, preexec_fn=limit_file_size)
+        self.assert_error(result, "file_unwritable", out)
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+    def test_convert(self):
+        out = self.folder / "full.mcap"
+        self.assert_leaves_nothing(["convert", self.sim / "guest.mcap", out], out)
+
+    def test_site_build(self):
+        out = self.folder / "full.wlsite"
+        self.assert_leaves_nothing(["site", "build", out, "--name", "full", "--plan",
+                                    self.sim / "plan-G.geojson", self.sim / "survey.mcap"], out)
+
+    def test_track(self):
+        out = self.folder / "full.geojson"
+        self.assert_leaves_nothing(["track", self.sim / "guest.mcap", "--site", self.site, "--out",
+                                    out, "--rate-hz", "10"], out)
+
+    def test_old_content_survives(self):
+        out = self.file("old.geojson", b"old")
+        run("track", self.sim / "guest.mcap", "--site", self.site, "--out", out, "--rate-hz", "10",
+            preexec_fn=limit_file_size)
+        self.assertEqual(out.read_bytes(), b"old")
+
+    def test_devices_and_folders_are_never_replaced(self):
+        for out in ("/dev/full", self.folder):
+            self.assert_error(run("track", self.sim / "guest.mcap", "--site", self.site, "--out", out),
+                              "file_unwritable", out)
+            self.assert_error(run("convert", ILC_LOG, out), "file_unwritable", out)
+        self.assertTrue(Path("/dev/full").is_char_device())
+
+
+class Convert(CliTest):
+    def test_keeps_what_inspect_tells(self):
+        for compression in ("zstd", "none"):
+            out = self.folder / f"mini-{compression}.mcap"
+            result = run("convert", ILC_LOG, out, "--compression", compression)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            before = json.loads(run("inspect", ILC_LOG, "--json").stdout)
+            after = json.loads(run("inspect", out, "--json").stdout)
+            self.assertEqual(after["format"], "mcap")
+            for key in ("device_model", "duration_s", "kinds", "wifi", "marks_by_floor"):
+                self.assertEqual(after[key], before[key], key)
+
+
+class Site(CliTest):
+    def test_build_reports_quality(self):
+        self.assertEqual(self.built.returncode, 0, self.built.stderr)
+        report = json.loads(self.built.stdout)
+        self.assertEqual([floor["floor"] for floor in report["floors"]], ["G"])
+        self.assertGreater(report["floors"][0]["fingerprints"], 10)
+        self.assertGreater(report["floors"][0]["covered_ratio"], 0.5)
+
+    def test_show_tells_what_was_built(self):
+        shown = json.loads(run("site", "show", self.site, "--json").stdout)
+        report = json.loads(self.built.stdout)
+        self.assertEqual(shown["version"], report["version"])
+        self.assertEqual(shown["fingerprints"], report["floors"][0]["fingerprints"])
+        self.assertIn("not georeferenced", run("site", "show", self.site).stdout)
+
+    def test_same_input_gives_the_same_bytes(self):
+        again = self.folder / "again.wlsite"
+        run("site", "build", again, "--name", "corridor", "--plan", self.sim / "plan-G.geojson",
+            self.sim / "survey.mcap")
+        self.assertEqual(again.read_bytes(), self.site.read_bytes())
+
+    def test_floors_come_from_marks_without_a_plan(self):
+        out = self.folder / "marks.wlsite"
+        result = run("site", "build", out, "--name", "marks", self.sim / "survey.mcap", "--report",
+                     self.folder / "quality.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        floors = json.loads(run("site", "show", out, "--json").stdout)["floors"]
+        self.assertEqual([floor["floor"] for floor in floors], ["G"])
+        # The marks span 27 m by 2 m; 10 m are left around them.
+        self.assertAlmostEqual(floors[0]["width_m"], 47.0, delta=1.0)
+        self.assertIn("floors", json.loads((self.folder / "quality.json").read_text()))
+
+
+class Track(CliTest):
+    def track(self, *words) -> str:
+        result = run("track", self.sim / "guest.mcap", "--site", self.site, *words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def truth(self) -> dict:
+        rows = csv.DictReader((self.sim / "guest-truth.csv").read_text().splitlines())
+        return {round(float(row["time_s"]), 1): (float(row["x_m"]), float(row["y_m"])) for row in rows}
+
+    def test_fixes_follow_the_walker(self):
+        truth = self.truth()
+        errors_m = []
+        for row in csv.DictReader(io.StringIO(self.track("--format", "csv"))):
+            place = truth.get(round(float(row["time_s"]), 1))
+            if place and row["x_m"]:
+                errors_m.append(math.dist(place, (float(row["x_m"]), float(row["y_m"]))))
+        self.assertGreater(len(errors_m), 20)
+        self.assertLess(sorted(errors_m)[len(errors_m) // 2], 5.0)
+
+    def test_broken_clock_does_not_fill_the_memory(self):
+        log = self.file("clock.txt", ILC_LOG.read_bytes().replace(b"1700000000000\tTYPE_WAYPOINT",
+                                                                  b"1000000000000\tTYPE_WAYPOINT"))
+        self.assert_error(run("track", log, "--site", self.site, "--method", "pdr", "--start", "G,2,2"),
+                          "invalid_argument", log)
+
+    def test_cadence_is_steady(self):
+        fixes = json.loads(self.track("--format", "json", "--rate-hz", "2"))["fixes"]
+        gaps_s = [b["time_s"] - a["time_s"] for a, b in zip(fixes, fixes[1:])]
+        self.assertTrue(all(abs(gap_s - 0.5) < 1e-6 for gap_s in gaps_s))
+
+    def test_unknown_has_no_position_in_any_format(self):
+        config = self.file("never_sure.toml", b"[fused.state]\nok_radius_m = 1e-6\n"
+                                              b"show_radius_m = 1e-6\n")
+        words = ("--config", config)
+        for fix in json.loads(self.track("--format", "json", *words))["fixes"]:
+            self.assertIn(fix["state"], ("unknown", "outside"))
+            self.assertIsNone(fix["position"])
+        for feature in json.loads(self.track(*words))["features"]:
+            self.assertIsNone(feature["geometry"])
+        rows = list(csv.reader(io.StringIO(self.track("--format", "csv", *words))))
+        self.assertTrue(rows[1:])
+        for row in rows[1:]:
+            self.assertEqual(len(row), len(rows[0]))
+            self.assertEqual(row[2:14], [""] * 12)
+
+    def test_known_positions_carry_their_doubt(self):
+        for fix in json.loads(self.track("--format", "json"))["fixes"]:
+            self.assertEqual(fix["method"], "fused")
+            self.assertEqual(fix["map_version"], json.loads(self.built.stdout)["version"])
+            if fix["position"] is None:
+                continue
+            ellipse = fix["position"]["ellipse_95"]
+            self.assertGreaterEqual(ellipse["semi_major_m"], ellipse["semi_minor_m"])
+            self.assertGreater(ellipse["semi_minor_m"], 0.0)
+            self.assertIsNone(fix["position"]["latitude_deg"])
+
+    def test_file_holds_what_would_be_printed(self):
+        out = self.folder / "guest.geojson"
+        self.assertEqual(self.track("--out", out), "")
+        self.assertEqual(out.read_text(), self.track())
+
+
+class Simulate(CliTest):
+    def test_writes_plans_logs_and_truth(self):
+        self.assertEqual(self.simulated.returncode, 0, self.simulated.stderr)
+        self.assertEqual(sorted(path.name for path in self.sim.iterdir()),
+                         ["guest-truth.csv", "guest.mcap", "plan-G.geojson", "survey-truth.csv",
+                          "survey.mcap"])
+
+    def test_seed_decides(self):
+        logs = []
+        for name, seed in (("a", 5), ("b", 5), ("c", 6)):
+            out = self.folder / name
+            run("simulate", self.folder / "scenario.toml", "--out", out, "--seed", seed)
+            logs.append((out / "guest.mcap").read_bytes())
+        self.assertEqual(logs[0], logs[1])
+        self.assertNotEqual(logs[0], logs[2])
+
+
+class Config(CliTest):
+    def test_default_toml_is_what_the_program_dumps(self):
+        shipped = (ROOT / "config/default.toml").read_text(encoding="utf-8")
+        self.assertEqual(run("config", "dump").stdout, shipped,
+                         "config/default.toml is stale: waylode config dump > config/default.toml")
+
+    def test_every_shipped_file_is_valid(self):
+        files = sorted((ROOT / "config").glob("*.toml"))
+        self.assertTrue(files)
+        result = run("config", "check", *files)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_bad_keys_and_values_name_their_line(self):
+        cases = {"[wknn]\nneigbours = 3\n": (2, "wknn.neigbours"),
+                 "[wknn]\n\nneighbours = 2.5\n": (3, "wknn.neighbours"),
+                 "[wknn]\nneighbours = 201\n": (2, "[1, 200]"),
+                 "[matcher]\ndistance = \"far\"\n": (2, "sorensen"),
+                 "[wkn]\nx = 1\n": (1, "wkn"),
+                 "[fused.planar]\nstart_sigma_m = nan\n": (2, "start_sigma_m"),
+                 "wknn = 3\n": (1, "wknn"),
+                 "[wknn\n": (1, "")}
+        for text, (line, mention) in cases.items():
+            with self.subTest(text=text):
+                path = self.file("bad.toml", text.encode())
+                self.assert_error(run("config", "check", path), "invalid_options", f"{path}:{line}",
+                                  mention)
+
+    def test_values_that_do_not_fit_together_name_the_file(self):
+        path = self.file("clash.toml", b"[wknn]\nneighbours = 4\nfloor_neighbours = 9\n")
+        self.assert_error(run("config", "check", path), "invalid_options", path, "floor_neighbours")
+
+    def test_configuration_changes_the_result(self):
+        config = self.file("one.toml", b"[wknn]\nneighbours = 1\nfloor_neighbours = 1\n")
+        words = ["track", self.sim / "guest.mcap", "--site", self.site, "--method", "wknn"]
+        self.assertNotEqual(run(*words, "--config", config).stdout, run(*words).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
