@@ -34,9 +34,11 @@ std::optional<core::FloorId> FloorFilter::most_likely() const {
 std::vector<double> FloorFilter::weighted_log_likelihoods(
     const observation::RadioObservation& observation, std::size_t floor_count,
     const Options& options) {
-  // A floor on which nothing heard is known is no likelier than the worst that is.
-  std::vector<double> result(floor_count,
-                             options.vote_weight * observation.floors.back().log_likelihood);
+  // A floor on which nothing heard is known is no likelier than the worst that is, nor than a tenth
+  // of the best: else a scan that knows one floor alone would not tell it from the others.
+  const double unknown = std::min(observation.floors.back().log_likelihood,
+                                  observation.floors.front().log_likelihood - std::log(10.0));
+  std::vector<double> result(floor_count, options.vote_weight * unknown);
   for (const observation::FloorHypothesis& hypothesis : observation.floors) {
     result[hypothesis.floor.index] = options.vote_weight * hypothesis.log_likelihood;
   }

@@ -82,9 +82,23 @@ TEST(FloorFilter, TakesTheFirstScanByBayesRule) {
 }
 
 TEST(FloorFilter, TakesAFloorTheScanDoesNotNameForNoBetterThanTheWorstNamed) {
-  const auto result = FloorFilter::weighted_log_likelihoods(votes({{2, -1.0}, {0, -3.0}}), 4,
-                                                            options_of(0.01, 0.5));
-  EXPECT_EQ(result, (std::vector<double>{-1.5, -1.5, -0.5, -1.5}));
+  EXPECT_EQ(FloorFilter::weighted_log_likelihoods(votes({{2, -1.0}, {0, -6.0}}), 4,
+                                                  options_of(0.01, 0.5)),
+            (std::vector<double>{-3.0, -3.0, -0.5, -3.0}));
+}
+
+TEST(FloorFilter, TakesAFloorTheScanDoesNotNameForATenthOfTheBestAtMost) {
+  const double tenth = 0.5 * (-1.0 - std::log(10.0));
+  EXPECT_EQ(FloorFilter::weighted_log_likelihoods(votes({{2, -1.0}, {0, -1.5}}), 4,
+                                                  options_of(0.01, 0.5)),
+            (std::vector<double>{-0.75, tenth, -0.5, tenth}));
+}
+
+TEST(FloorFilter, LearnsTheFloorFromScansThatKnowItAlone) {
+  FloorFilter filter(options_of(0.01, 1.0), 3);
+  filter.add(votes({{2, 0.0}}));
+  EXPECT_EQ(filter.most_likely(), core::FloorId{2});
+  EXPECT_NEAR(filter.probabilities()[2], 1.0 / 1.2, 1e-12);
 }
 
 TEST(FloorFilter, HoldsItsFloorAgainstOneContraryScanAndYieldsToMany) {

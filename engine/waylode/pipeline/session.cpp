@@ -64,6 +64,14 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
     return core::fail(core::ErrorCode::kInvalidArgument,
                       "this method needs a known start (floor, x, y)", std::string(method.name));
   }
+  const std::size_t floor_count = model->site()->floors().size();
+  for (const auto& floor :
+       {options.known_floor, options.start ? std::optional(options.start->floor) : std::nullopt}) {
+    if (floor && floor->index >= floor_count) {
+      return core::fail(core::ErrorCode::kInvalidArgument, "the site has no such floor",
+                        model->site()->name());
+    }
+  }
   const Options& tunables = model->options();
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
       model, method, options, pdr::DeadReckoning(tunables.pdr), radio::ScanAssembler(tunables.scan),

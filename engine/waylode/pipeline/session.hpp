@@ -54,7 +54,8 @@ class Estimator;
 /// One phone: its samples in, fixes out. Deterministic, reads no clock; one thread at a time.
 class Session {
  public:
-  /// kInvalidArgument when the method needs a start and none is given.
+  /// kInvalidArgument when the method needs a start and none is given, or for a floor that the
+  /// site does not have.
   static core::Result<Session> create(std::shared_ptr<const Model> model, const Method& method,
                                       const SessionOptions& options);
   Session(Session&&) noexcept;

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/smoothing/smoothed_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "waylode/core/rng.hpp"
+#include "waylode/fusion/testing/fused_fixture.hpp"
+
+namespace waylode::smoothing {
+namespace {
+
+using core::FloorId;
+using core::Vector2;
+using fusion::testing::at_s;
+using fusion::testing::fused_options;
+using fusion::testing::heard;
+using fusion::testing::Heard;
+using fusion::testing::step_of;
+using fusion::testing::three_floor_site;
+
+constexpr std::optional<FloorId> kKnownFloor = FloorId{2};
+
+TrackSmoother::Options smoother_options(int rounds = 3) {
+  TrackSmoother::Options options;
+  options.fused = fused_options();
+  options.rounds = rounds;
+  return options;
+}
+
+/// A scan, then half a second steps with a scan, some of them late, every third second.
+std::vector<Event> noisy_walk(int seconds, std::uint64_t seed) {
+  core::Rng rng(seed);
+  std::vector<Event> events = {heard(0.0, {{2, 0.0, {5.0, 5.0}}})};
+  Vector2 place_m(5.0, 5.0);
+  for (int i = 0; i < 2 * seconds; ++i) {
+    const double heading_rad = 0.03 * i;
+    place_m += 0.7 * Vector2(std::cos(heading_rad), std::sin(heading_rad));
+    events.emplace_back(step_of(0.5 * i, 0.5 * (i + 1), 0.7, heading_rad + 0.1));
+    if (i % 6 != 5) continue;
+    const Vector2 noise_m(rng.normal(0.0, 4.0), rng.normal(0.0, 4.0));
+    events.emplace_back(
+        heard(0.5 * (i + 1), {{2, 0.0, place_m + noise_m}}, 1.0, rng.uniform(0.0, 1.5)));
+  }
+  return events;
+}
+
+void expect_same(const std::optional<core::Belief>& a, const std::optional<core::Belief>& b,
+                 double tolerance) {
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->floor, b->floor);
+  EXPECT_NEAR(a->floor_probability, b->floor_probability, tolerance);
+  EXPECT_LE((a->position_m - b->position_m).norm(), tolerance);
+  EXPECT_LE((a->covariance_m2 - b->covariance_m2).norm(), tolerance);
+}
+
+TEST(FixedLagTracker, EqualsTheWholeTrackWhenTheLagCoversIt) {
+  TrackSmoother whole(three_floor_site(), smoother_options(), kKnownFloor);
+  FixedLagTracker lagging(three_floor_site(), fused_options(), kKnownFloor,
+                          std::chrono::seconds(100));
+  for (const Event& event : noisy_walk(60, 4)) {
+    whole.add(event);
+    lagging.add(event);
+  }
+  for (const double time_s : {0.0, 0.7, 13.0, 30.25, 44.4, 59.75}) {
+    expect_same(lagging.belief_at(at_s(time_s)), whole.belief_at(at_s(time_s)), 1e-8);
+  }
+}
+
+TEST(FixedLagTracker, EqualsTheCausalTrackerForTheNewestInstant) {
+  fusion::FusedTracker causal(three_floor_site(), fused_options(), std::nullopt);
+  FixedLagTracker lagging(three_floor_site(), fused_options(), std::nullopt,
+                          std::chrono::seconds(10));
+  for (const Event& event : noisy_walk(60, 5)) {
+    std::visit([&](const auto& value) { causal.add(value); }, event);
+    lagging.add(event);
+    for (const double later_s : {0.0, 0.2, 5.0}) {
+      const auto time = causal.planar().state().time + core::from_seconds(later_s);
+      expect_same(lagging.belief_at(time), causal.belief_at(time), 0.0);
+    }
+  }
+}
+
+TEST(FixedLagTracker, ForgetsNothingThatItsLagNeeds) {
+  FixedLagTracker forgetful(three_floor_site(), fused_options(), kKnownFloor,
+                            std::chrono::seconds(5));
+  FixedLagTracker mindful(three_floor_site(), fused_options(), kKnownFloor, std::chrono::hours(1));
+  auto events = noisy_walk(60, 6);
+  // A long stand without steps or scans: longer than anything kept.
+  events.emplace_back(heard(100.0, {{2, 0.0, {9.0, 9.0}}}));
+  double newest_s = 0.0;
+  for (const Event& event : events) {
+    forgetful.add(event);
+    mindful.add(event);
+    if (const auto* motion = std::get_if<observation::MotionDelta>(&event)) {
+      newest_s = core::to_seconds(motion->end - at_s(0.0));
+    } else {
+      newest_s =
+          core::to_seconds(std::get<observation::RadioObservation>(event).delivered - at_s(0.0));
+    }
+    for (const double lag_s : {0.1, 2.4, 5.0}) {
+      if (newest_s < lag_s) continue;
+      const auto time = at_s(newest_s - lag_s);
+      expect_same(forgetful.belief_at(time), mindful.belief_at(time), 0.0);
+    }
+  }
+  EXPECT_EQ(newest_s, 100.0);
+}
+
+TEST(FixedLagTracker, HasNoBeliefBeforeAScan) {
+  FixedLagTracker tracker(three_floor_site(), fused_options(), kKnownFloor,
+                          std::chrono::seconds(5));
+  tracker.add(step_of(0.0, 0.5, 0.7, 0.0));
+  EXPECT_EQ(tracker.belief_at(at_s(0.0)), std::nullopt);
+  EXPECT_EQ(tracker.belief_at(at_s(0.5)), std::nullopt);
+}
+
+TEST(TrackSmoother, HasNoBeliefWithoutAScanOfItsFloor) {
+  TrackSmoother smoother(three_floor_site(), smoother_options(), FloorId{1});
+  EXPECT_EQ(smoother.belief_at(at_s(0.0)), std::nullopt);
+  smoother.add(step_of(0.0, 0.5, 0.7, 0.0));
+  EXPECT_EQ(smoother.belief_at(at_s(0.5)), std::nullopt);
+  smoother.add(heard(1.0, {{0, 0.0, {1.0, 1.0}}}));
+  EXPECT_EQ(smoother.belief_at(at_s(1.0)), std::nullopt);
+  smoother.add(heard(2.0, {{1, 0.0, {3.0, 4.0}}}));
+  EXPECT_TRUE(smoother.belief_at(at_s(0.0)));
+}
+
+TEST(TrackSmoother, KnowsThePlaceBeforeTheFirstScan) {
+  // Ten metres east (floor 0 lies as the site does) before the only scan: the start lies ten
+  // metres west of it.
+  TrackSmoother::Options options = smoother_options();
+  options.fused.planar.heading_offset_sigma_rad = options.fused.planar.log_scale_sigma = 1e-4;
+  TrackSmoother smoother(three_floor_site(), options, FloorId{0});
+  for (int i = 0; i < 10; ++i) smoother.add(step_of(0.5 * i, 0.5 * (i + 1), 1.0, 0.0));
+  smoother.add(heard(5.0, {{0, 0.0, {30.0, 7.0}}}));
+  const double p_m2 = 400.0;  // Of the start, around the first scan's place.
+  const double noise_m2 = 0.04 * 5.0 + 10.0 * 0.05 * 0.05;
+  const double pull = p_m2 / (p_m2 + noise_m2 + 9.0 + 16.0);
+  EXPECT_NEAR(smoother.belief_at(at_s(0.0))->position_m.x(), 30.0 - 10.0 * pull, 1e-2);
+  EXPECT_NEAR(smoother.belief_at(at_s(0.0))->position_m.y(), 7.0, 1e-2);
+}
+
+TEST(TrackSmoother, DoubtsAScanThatTheFutureContradicts) {
+  const auto error_m = [](double degrees_of_freedom) {
+    TrackSmoother::Options options = smoother_options(5);
+    options.fused.planar.radio_degrees_of_freedom = degrees_of_freedom;
+    TrackSmoother smoother(three_floor_site(), options, FloorId{0});
+    for (int i = 0; i < 20; ++i) {
+      smoother.add(heard(3.0 * i, {{0, 0.0, {i == 8 ? 60.0 : 10.0, 10.0}}}));
+    }
+    return (smoother.belief_at(at_s(24.0))->position_m - Vector2(10.0, 10.0)).norm();
+  };
+  EXPECT_LT(error_m(3.0), 0.5);
+  EXPECT_GT(error_m(1e15), 3.0 * error_m(3.0));
+}
+
+/// The posterior of every scan by going through all ways over the floors.
+template <std::size_t kScans>
+std::array<std::array<double, 3>, kScans> enumerate(
+    const std::array<std::array<double, 3>, kScans>& likelihoods, double change_probability) {
+  std::array<std::array<double, 3>, kScans> posterior{};
+  const auto ways = static_cast<std::size_t>(std::pow(3, kScans) + 0.5);
+  for (std::size_t way = 0; way < ways; ++way) {
+    std::array<std::size_t, kScans> floors{};
+    double probability = 1.0 / 3.0;
+    for (std::size_t i = 0, rest = way; i < kScans; ++i, rest /= 3) {
+      floors[i] = rest % 3;
+      probability *= likelihoods[i][floors[i]];
+      if (i == 0) continue;
+      const bool stays = floors[i] == floors[i - 1];
+      probability *= change_probability / 3.0 + (stays ? 1.0 - change_probability : 0.0);
+    }
+    for (std::size_t i = 0; i < kScans; ++i) posterior[i][floors[i]] += probability;
+  }
+  for (auto& scan : posterior) {
+    const double total = scan[0] + scan[1] + scan[2];
+    for (double& value : scan) value /= total;
+  }
+  return posterior;
+}
+
+TEST(TrackSmoother, SmoothsFloorsAsEnumerationOfAllWaysDoes) {
+  constexpr std::size_t kScans = 5;
+  constexpr double kVoteWeight = 0.7;
+  TrackSmoother::Options options = smoother_options();
+  options.fused.floor.change_probability = 0.15;
+  options.fused.floor.vote_weight = kVoteWeight;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    core::Rng rng(seed);
+    TrackSmoother smoother(three_floor_site(), options, std::nullopt);
+    std::array<std::array<double, 3>, kScans> likelihoods{};
+    for (std::size_t i = 0; i < kScans; ++i) {
+      std::vector<Heard> floors;
+      for (std::uint16_t floor = 0; floor < 3; ++floor) {
+        const double vote = rng.uniform(-4.0, 0.0);
+        floors.push_back({floor, vote, {5.0, 5.0}});
+        likelihoods[i][floor] = std::exp(kVoteWeight * vote);
+      }
+      smoother.add(heard(2.0 * static_cast<double>(i), floors));
+    }
+    const auto expected = enumerate(likelihoods, 0.15);
+    for (std::size_t i = 0; i < kScans; ++i) {
+      const auto belief = smoother.belief_at(at_s(2.0 * static_cast<double>(i)));
+      ASSERT_TRUE(belief);
+      const auto best = std::ranges::max_element(expected[i]);
+      EXPECT_EQ(belief->floor.index, best - expected[i].begin()) << seed << " " << i;
+      EXPECT_NEAR(belief->floor_probability, *best, 1e-9) << seed << " " << i;
+    }
+  }
+}
+
+TEST(TrackSmoother, SeesAFloorChangeWhenItHappensNotWhenItIsBelieved) {
+  TrackSmoother::Options options = smoother_options();
+  options.fused.floor.change_probability = 0.001;
+  TrackSmoother smoother(three_floor_site(), options, std::nullopt);
+  fusion::FusedTracker causal(three_floor_site(), options.fused, std::nullopt);
+  for (int i = 0; i < 20; ++i) {
+    const std::uint16_t here = i < 10 ? 0 : 1;
+    const std::uint16_t there = i < 10 ? 1 : 0;
+    const auto scan = heard(2.0 * i, {{here, 0.0, {7.0, 2.0}}, {there, -4.0, {7.0, 2.0}}});
+    smoother.add(scan);
+    causal.add(scan);
+    if (i == 10) {
+      EXPECT_EQ(causal.floor(), FloorId{0});
+    }
+  }
+  EXPECT_EQ(smoother.belief_at(at_s(18.0))->floor, FloorId{0});
+  EXPECT_EQ(smoother.belief_at(at_s(20.0))->floor, FloorId{1});
+}
+
+TEST(TrackSmoother, JudgesTheStateByItsRules) {
+  TrackSmoother smoother(three_floor_site(), smoother_options(), FloorId{0});
+  smoother.add(heard(0.0, {{0, 0.0, {1.0, 1.0}}}, /*known_share_ratio=*/0.9));
+  core::Belief belief = *smoother.belief_at(at_s(0.0));
+  belief.covariance_m2 = core::Matrix2::Identity();
+  EXPECT_EQ(smoother.state_for(belief), core::FixState::kOk);
+  belief.covariance_m2 *= 10'000.0;
+  EXPECT_EQ(smoother.state_for(belief), core::FixState::kUnknown);
+}
+
+TEST(TrackSmoother, RejectsRoundsOutOfRange) {
+  EXPECT_TRUE(smoother_options(1).validate());
+  EXPECT_TRUE(smoother_options(50).validate());
+  for (const int rounds : {0, -1, 51}) {
+    const auto valid = smoother_options(rounds).validate();
+    ASSERT_FALSE(valid);
+    EXPECT_EQ(valid.error().code, core::ErrorCode::kInvalidOptions);
+  }
+}
+
+}  // namespace
+}  // namespace waylode::smoothing
