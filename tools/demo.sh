@@ -24,7 +24,7 @@ run "$waylode" site build "$demo/demo.wlsite" --name demo \
   --plan "$demo/logs/plan-F1.geojson" --plan "$demo/logs/plan-F2.geojson" "$demo"/logs/survey*.mcap
 
 say "Position the walkers"
-walkers=$(ls "$demo"/logs/*.mcap | grep -v /survey)
+walkers=$(find "$demo/logs" -name '*.mcap' ! -name 'survey*' | sort)
 for log in $walkers; do
   name=$(basename "$log" .mcap)
   run "$waylode" track "$log" --site "$demo/demo.wlsite" --method fused --format geojson \
