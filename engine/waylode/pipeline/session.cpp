@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/pipeline/session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "waylode/core/assert.hpp"
@@ -33,7 +34,7 @@ struct Session::Pipeline {
   radio::WknnEstimator wknn;
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
-  std::optional<core::DeviceTime> first_advertisement;
+  std::optional<core::DeviceTime> quiet_since;  ///< No scan, and no try with Bluetooth alone.
 
   void hear(const radio::Query& query) {
     const auto observation = wknn.estimate(query, options.known_floor);
@@ -45,10 +46,11 @@ struct Session::Pipeline {
   /// Advertisements wait for the next Wi-Fi scan; when none comes they are matched by themselves.
   void hear(const sample::BleReading& advertisement) {
     assembler.add(advertisement);
-    first_advertisement = first_advertisement.value_or(advertisement.time);
-    const core::DeviceTime silent_since = last_scan.value_or(*first_advertisement);
-    const double silent_s = core::to_seconds(advertisement.time - silent_since);
-    if (silent_s < model->options().bluetooth_alone_after_s) return;
+    quiet_since = std::max(quiet_since.value_or(advertisement.time),
+                           last_scan.value_or(core::DeviceTime::min()));
+    const double quiet_s = core::to_seconds(advertisement.time - *quiet_since);
+    if (quiet_s < model->options().bluetooth_alone_after_s) return;
+    quiet_since = advertisement.time;
     hear(assembler.assemble_bluetooth(advertisement.time));
   }
 };
