@@ -75,7 +75,7 @@ class PlanarTracker {
     double radio_bias_tau_s = 30.0;         ///< How long a radio error persists.
     double radio_sigma_scale = 1.2;         ///< On the scan's own sigma.
     double radio_degrees_of_freedom = 3.0;  ///< Of the Student-t; large is Gaussian.
-    double lost_weight_ratio = 0.5;         ///< Scans weighted below this, on average, mean "lost".
+    double lost_weight_ratio = 0.7;         ///< Scans weighted below this, on average, mean "lost".
     double lost_sigma_m = 20.0;             ///< Doubt added when lost.
 
     core::Result<void> validate() const;
