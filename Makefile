@@ -39,8 +39,8 @@ lint: setup-test ## Check format, layers, documentation and changed code (ALL=1:
 fix: setup-test ## Format every source file
 	@tools/lint.sh --fix
 
-golden: setup-test ## Rewrite the expected results under testdata/; review the difference
-	@$(call preset,ci) && WAYLODE_UPDATE_GOLDEN=1 ctest --preset golden
+golden: setup-test ## Rewrite the golden samples in contract/samples; review the difference
+	@$(call preset,ci) && build/ci/bin/mcap_interop_helper golden contract/samples
 
 bench: setup-test ## Build and run the speed benchmarks
 	@$(call preset,bench) && tools/run_each.sh build/bench/bin 'bench_*'
