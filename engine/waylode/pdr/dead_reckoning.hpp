@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 
 #include "waylode/core/result.hpp"
@@ -32,21 +33,27 @@ class DeadReckoning {
   explicit DeadReckoning(const Options& options);
 
   /// Samples in order of time; kinds that do not concern it are passed over. A step is told when it
-  /// is confirmed, a fraction of a second after its peak.
+  /// is confirmed, a fraction of a second after its peak. Its heading is the mean since the step
+  /// before; of the first after a pause, that of the last moments, not of the standing.
   std::optional<observation::MotionDelta> add(const sample::Sample& sample);
 
  private:
   std::optional<observation::MotionDelta> add_accelerometer(
       const sample::AccelerometerSample& sample);
-  observation::MotionDelta motion_of(const Step& step);
+  observation::MotionDelta motion_of(const Step& step, core::DeviceTime told);
+  void remember_heading(core::DeviceTime time);
 
   Options options_;
   GravityFilter gravity_;
   HeadingFilter heading_;
   StepDetector steps_;
   StrideModel stride_;
-  /// Mean direction of the phone since the last step.
-  core::Vector2 heading_sum_ = core::Vector2::Zero();
+  struct Direction {
+    core::DeviceTime time;
+    core::Vector2 unit;
+  };
+  /// Of the phone since the last step was told, as far back as a step may last.
+  std::deque<Direction> directions_;
 };
 
 }  // namespace waylode::pdr

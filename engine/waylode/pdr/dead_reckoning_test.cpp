@@ -118,6 +118,28 @@ TEST(DeadReckoning, DoesNotDependOnHowThePhoneIsHeld) {
   }
 }
 
+TEST(DeadReckoning, StartsOffWhereItFacesAfterStandingAnotherWay) {
+  // 30 s facing east, a left turn within a second, then a walk north.
+  DeadReckoning reckoning(options());
+  std::vector<MotionDelta> deltas;
+  for (int i = 0; i < 50 * 40; ++i) {
+    const double time_s = 0.02 * i;
+    const auto time = device_time_from_seconds(time_s);
+    const bool turning = time_s >= 30.0 && time_s < 31.0;
+    const double bounce_mps2 =
+        time_s < 31.0 ? 0.0 : 2.5 * std::sin(2.0 * kPi * kCadence_hz * (time_s - 31.0));
+    if (i == 0) reckoning.add(sample::RotationSample{time, held(0.0, 0.0)});
+    reckoning.add(sample::GyroscopeSample{time, {0.0, 0.0, turning ? kPi / 2.0 : 0.0}});
+    const auto delta = reckoning.add(
+        sample::AccelerometerSample{time, {0.0, 0.0, kStandardGravity_mps2 + bounce_mps2}});
+    if (delta) deltas.push_back(*delta);
+  }
+  ASSERT_GT(deltas.size(), 10U);
+  constexpr double kTenDegrees_rad = kPi / 18.0;
+  EXPECT_NEAR(deltas[0].heading_rad, kPi / 2.0, kTenDegrees_rad);
+  EXPECT_NEAR(deltas[1].heading_rad, kPi / 2.0, kTenDegrees_rad);
+}
+
 TEST(DeadReckoning, TellsNoStepWhenTurningInPlace) {
   for (const Quaternion& pose : {held(0.0, 0.0), held(0.7, 0.4), held(1.5, 0.0)}) {
     EXPECT_TRUE(reckon({.turn_rate_radps = 2.0, .bounce_mps2 = 0.1, .body_from_device = pose}, 30.0)
