@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -13,9 +15,9 @@
 #include "datasets/ipin_dataset.hpp"
 #include "datasets/mcap_dataset.hpp"
 #include "datasets/uji_dataset.hpp"
+#include "output.hpp"
 #include "progress_bar.hpp"
 #include "run_evaluation.hpp"
-#include "waylode/core/file.hpp"
 #include "waylode/eval/report.hpp"
 #include "waylode/site/bundle.hpp"
 
@@ -40,6 +42,10 @@ using Loader =
 core::Result<std::vector<pipeline::Method>> find_methods(const std::vector<std::string>& names) {
   std::vector<pipeline::Method> methods;
   for (const std::string& name : names) {
+    if (std::ranges::count(names, name) > 1) {
+      return core::fail(core::ErrorCode::kInvalidArgument,
+                        "'" + name + "' is given twice; name each method once", "--methods");
+    }
     const auto method = pipeline::find_method(name);
     if (!method) return tl::unexpected(method.error());
     methods.push_back(*method);
@@ -51,34 +57,50 @@ core::Result<void> write_results(const Arguments& arguments, const eval::ReportO
                                  const std::vector<eval::EvaluatedTrack>& tracks,
                                  const std::vector<eval::ResultRow>& rows) {
   if (arguments.out) {
-    if (auto written = core::write_file_atomically(*arguments.out, eval::to_json(report, rows));
-        !written) {
-      return written;
-    }
+    auto written = write_output(arguments.out, eval::to_json(report, rows));
+    if (!written) return written;
   }
   if (arguments.report) {
-    if (auto written =
-            core::write_file_atomically(*arguments.report, eval::to_html(report, tracks, rows));
-        !written) {
-      return written;
-    }
+    auto written = write_output(arguments.report, eval::to_html(report, tracks, rows));
+    if (!written) return written;
   }
   print(eval::to_text(rows));
   return {};
 }
 
+/// Before hours of work: could the results be kept?
+core::Result<void> check_outputs(const Arguments& arguments) {
+  for (const auto& path : {arguments.out, arguments.report}) {
+    if (!path) continue;
+    if (auto replaceable = check_replaceable(*path); !replaceable) return replaceable;
+  }
+  return {};
+}
+
+/// Notes are shown when the bar is gone, and not beside an error, which is one line.
+core::Result<Dataset> load_dataset(const Arguments& arguments, const pipeline::Options& options,
+                                   const Loader& load) {
+  std::vector<std::string> notes;
+  const core::LogSink log = [&](core::LogLevel /*level*/, std::string_view /*module*/,
+                                std::string_view message) { notes.emplace_back(message); };
+  core::Result<Dataset> dataset;
+  {
+    ProgressBar bar("reading and mapping");
+    dataset = load(arguments, {options, bar.sink(), log});
+  }
+  if (dataset) std::ranges::for_each(notes, print_note);
+  return dataset;
+}
+
 core::Result<void> evaluate(const Arguments& arguments, const std::string& command_line,
                             const Loader& load) {
+  if (auto keepable = check_outputs(arguments); !keepable) return keepable;
   auto methods = find_methods(arguments.methods);
   if (!methods) return tl::unexpected(methods.error());
   auto options = load_options(arguments.config);
   if (!options) return tl::unexpected(options.error());
 
-  core::Result<Dataset> dataset;
-  {
-    ProgressBar bar("reading and mapping");
-    dataset = load(arguments, {*options, bar.sink(), {}});
-  }
+  auto dataset = load_dataset(arguments, *options, load);
   if (!dataset) return tl::unexpected(dataset.error());
   if (dataset->tests.empty()) {
     return core::fail(core::ErrorCode::kInvalidArgument,

@@ -22,7 +22,13 @@ core::Result<void> write_output(const std::optional<std::string>& path, std::str
 core::Result<void> check_replaceable(const std::string& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return {};
+  if (std::filesystem::is_regular_file(status)) return {};
+  if (!std::filesystem::exists(status)) {
+    const auto folder = std::filesystem::path(path).parent_path();
+    if (folder.empty() || std::filesystem::is_directory(folder, ignored)) return {};
+    return core::fail(core::ErrorCode::kFileUnwritable,
+                      "its folder does not exist; make it or name another", path);
+  }
   return core::fail(core::ErrorCode::kFileUnwritable,
                     "is a folder or a device; name a file to write", path);
 }

@@ -14,7 +14,8 @@ namespace waylode::cli {
 core::Result<void> write_output(const std::optional<std::string>& path, std::string_view text);
 
 /// kFileUnwritable when `path` exists and is no regular file: replacing a folder or a device by a
-/// file is never meant. For writers that replace what is there.
+/// file is never meant. The same when the folder it would lie in does not exist. For writers that
+/// replace what is there, and to know early that long work could not be kept.
 core::Result<void> check_replaceable(const std::string& path);
 
 }  // namespace waylode::cli

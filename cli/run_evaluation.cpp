@@ -4,8 +4,8 @@
 
 #include <time.h>
 
-#include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -52,9 +52,12 @@ core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRe
   const std::optional<core::DeviceTime> first_scan = first_usable_scan(recording.samples);
   std::vector<core::DeviceTime> instants;
   for (eval::TruthPoint& truth : track.truths) {
-    truth.scored = method.whole_track() || (first_scan && truth.time >= *first_scan);
+    truth.scored =
+        test.score_all || method.whole_track() || (first_scan && truth.time >= *first_scan);
     instants.push_back(truth.time);
   }
+  // Dead reckoning was told where it starts.
+  if (method.kind == pipeline::MethodKind::kPdr) track.truths.front().scored = false;
   const double started_s = thread_cpu_s();
   auto session = pipeline::Session::create(test.model, method,
                                            session_options(test, recording, method, floor_known));
@@ -64,44 +67,86 @@ core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRe
   return track;
 }
 
+/// Shared by the threads: deals out the tests in order and collects tracks and failures.
+class Evaluation {
+ public:
+  Evaluation(const Dataset& dataset, const EvaluationOptions& options,
+             const core::ProgressSink& progress)
+      : dataset_(dataset),
+        options_(options),
+        progress_(progress),
+        end_(dataset.tests.size()),
+        tracks_(dataset.tests.size() * options.methods.size()) {}
+
+  /// Runs tests until none is left or one has failed. For any number of threads.
+  void work() {
+    for (std::size_t i = next_++; i < end_; i = next_++) {
+      try {
+        const core::Result<void> ran = run_test(i);
+        if (!ran) fail(i, ran.error(), nullptr);
+      } catch (...) {
+        fail(i, {}, std::current_exception());
+      }
+    }
+  }
+
+  /// After all threads are done. Every test before a failed one has run to its end, so the first
+  /// failure by order does not depend on the threads.
+  core::Result<std::vector<eval::EvaluatedTrack>> take() {
+    if (exception_) std::rethrow_exception(exception_);
+    if (end_ < dataset_.tests.size()) return tl::unexpected(error_);
+    return std::move(tracks_);
+  }
+
+ private:
+  core::Result<void> run_test(std::size_t i) {
+    const TestCase& test = dataset_.tests[i];
+    const core::Result<TestRecording> recording = test.load();
+    if (!recording) return tl::unexpected(recording.error());
+    for (std::size_t m = 0; m < options_.methods.size() && i < end_; ++m) {
+      auto track = run_method(test, *recording, options_.methods[m], options_.floor_known);
+      if (!track) return tl::unexpected(track.error());
+      tracks_[i * options_.methods.size() + m] = *std::move(track);
+    }
+    const std::scoped_lock lock(mutex_);
+    if (progress_) progress_(++done_, dataset_.tests.size());
+    return {};
+  }
+
+  void fail(std::size_t i, core::Error error, std::exception_ptr exception) {
+    const std::scoped_lock lock(mutex_);
+    if (i >= end_) return;
+    end_ = i;
+    error_ = std::move(error);
+    exception_ = std::move(exception);
+  }
+
+  const Dataset& dataset_;
+  const EvaluationOptions& options_;
+  const core::ProgressSink& progress_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> end_;  ///< The first failed test; written under the mutex.
+  std::vector<eval::EvaluatedTrack> tracks_;
+  std::mutex mutex_;  ///< Guards what follows and the progress sink.
+  std::size_t done_ = 0;
+  core::Error error_;  ///< Of the test at `end_`, unless it threw.
+  std::exception_ptr exception_;
+};
+
 }  // namespace
 
 core::Result<std::vector<eval::EvaluatedTrack>> run_evaluation(const Dataset& dataset,
                                                                const EvaluationOptions& options,
                                                                const core::ProgressSink& progress) {
-  const std::size_t method_count = options.methods.size();
-  std::vector<eval::EvaluatedTrack> tracks(dataset.tests.size() * method_count);
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;  // Guards `first_error`, `done` and the progress sink.
-  std::optional<core::Error> first_error;
-  std::size_t done = 0;
-
-  const auto work = [&] {
-    for (std::size_t i = next++; i < dataset.tests.size(); i = next++) {
-      const TestCase& test = dataset.tests[i];
-      std::optional<core::Error> error;
-      const core::Result<TestRecording> recording = test.load();
-      if (!recording) error = recording.error();
-      for (std::size_t m = 0; m < method_count && !error; ++m) {
-        auto track = run_method(test, *recording, options.methods[m], options.floor_known);
-        if (track) {
-          tracks[i * method_count + m] = *std::move(track);
-        } else {
-          error = track.error();
-        }
-      }
-      const std::scoped_lock lock(mutex);
-      if (error && !first_error) first_error = error;
-      if (first_error) return;
-      if (progress) progress(++done, dataset.tests.size());
+  Evaluation evaluation(dataset, options, progress);
+  {
+    std::vector<std::jthread> workers;
+    for (unsigned i = 1; i < options.threads; ++i) {
+      workers.emplace_back([&] { evaluation.work(); });
     }
-  };
-  std::vector<std::jthread> workers;
-  for (unsigned i = 1; i < options.threads; ++i) workers.emplace_back(work);
-  work();
-  workers.clear();
-  if (first_error) return tl::unexpected(*first_error);
-  return tracks;
+    evaluation.work();
+  }
+  return evaluation.take();
 }
 
 }  // namespace waylode::cli

@@ -18,8 +18,9 @@ struct EvaluationOptions {
 };
 
 /// Runs every method on every test, each with nothing it may not know. Truths before the first scan
-/// with a reading are not scored for methods that answer live. Results in the order of the tests,
-/// whatever the number of threads.
+/// with a reading are not scored for methods that answer live (but see TestCase::score_all), nor is
+/// the start that dead reckoning is told. Results in the order of the tests, and on failure the
+/// error or exception of the first test that fails, whatever the number of threads.
 core::Result<std::vector<eval::EvaluatedTrack>> run_evaluation(const Dataset& dataset,
                                                                const EvaluationOptions& options,
                                                                const core::ProgressSink& progress);

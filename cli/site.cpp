@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/site/site.hpp"
 
-#include <filesystem>
 #include <memory>
 
 #include "command.hpp"
 #include "config_file.hpp"
+#include "ilc_floor.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
 #include "site_report.hpp"
@@ -19,8 +19,6 @@
 
 namespace waylode::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct BuildArguments {
   std::string out;
@@ -38,25 +36,6 @@ core::Result<site::FloorDraft> read_plan(const std::string& path) {
   const auto text = core::read_file(path);
   if (!text) return tl::unexpected(text.error());
   return site::parse_plan(*text, path);
-}
-
-/// A folder with geojson_map.json, floor_info.json or both; the folder's name is the floor's.
-core::Result<site::FloorDraft> read_ilc_floor(const std::string& folder) {
-  const fs::path drawing_path = fs::path(folder) / "geojson_map.json";
-  const fs::path info_path = fs::path(folder) / "floor_info.json";
-  const fs::path whole = fs::absolute(folder).lexically_normal();
-  const fs::path last = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
-  const std::string floor_name = last.string();
-  const auto info = core::read_file(info_path);
-  if (!info) return tl::unexpected(info.error());
-  if (!fs::exists(drawing_path)) {
-    const auto bounds = site::parse_ilc_floor_size(*info, info_path.string());
-    if (!bounds) return tl::unexpected(bounds.error());
-    return site::bare_floor(floor_name, *bounds);
-  }
-  const auto drawing = core::read_file(drawing_path);
-  if (!drawing) return tl::unexpected(drawing.error());
-  return site::parse_ilc_floor(*drawing, *info, floor_name, drawing_path.string());
 }
 
 core::Result<std::vector<site::FloorDraft>> read_floors(const BuildArguments& arguments) {

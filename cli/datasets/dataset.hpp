@@ -29,6 +29,8 @@ struct TestCase {
   bool covered = false;
   std::shared_ptr<const pipeline::Model> model;
   std::optional<core::FloorId> floor;  ///< The one floor of the recording, where it has just one.
+  /// Truths from before the first scan with a reading count too, whatever the method.
+  bool score_all = false;
   std::function<core::Result<TestRecording>()> load;
 };
 
@@ -43,7 +45,7 @@ struct Dataset {
 struct DatasetContext {
   pipeline::Options options;
   core::ProgressSink progress;
-  core::LogSink log;
+  core::LogSink log;  ///< What was left out and why; called by one thread.
 };
 
 }  // namespace waylode::cli

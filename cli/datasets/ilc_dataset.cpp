@@ -3,13 +3,14 @@
 #include "datasets/ilc_dataset.hpp"
 
 #include <algorithm>
-#include <map>
+#include <set>
+#include <system_error>
 
 #include "datasets/coverage.hpp"
+#include "datasets/log_files.hpp"
 #include "datasets/split.hpp"
 #include "datasets/test_recording.hpp"
-#include "waylode/core/file.hpp"
-#include "waylode/log/log_reader.hpp"
+#include "ilc_floor.hpp"
 #include "waylode/site/plan_geojson.hpp"
 #include "waylode/survey/map_builder.hpp"
 
@@ -28,45 +29,65 @@ struct FloorFolder {
 
 struct SiteFolder {
   std::string name;
+  fs::path path;
   std::vector<FloorFolder> floors;
 };
 
-std::vector<fs::path> sorted_entries(const fs::path& folder, bool folders) {
-  std::vector<fs::path> entries;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.is_directory() == folders) entries.push_back(entry.path());
+/// Deals the logs of one floor into train and test; keys that have a log go into `found`.
+core::Result<FloorFolder> read_floor_folder(const std::string& site_name, const fs::path& path,
+                                            const std::optional<Split>& given_split,
+                                            std::set<std::string>& found) {
+  constexpr std::uint64_t kSplitSeed = 1;
+  FloorFolder floor{path.filename().string(), path, {}, {}, {}};
+  const auto entries = list_folder(path / "path_data_files");
+  if (!entries) {
+    const bool absent = entries.error().code == core::ErrorCode::kFileNotFound;
+    return absent ? core::Result<FloorFolder>(floor) : tl::unexpected(entries.error());
   }
-  std::ranges::sort(entries);
-  return entries;
+  const std::vector<fs::path> logs = text_logs(entries->files);
+  std::vector<std::string> keys;
+  for (const fs::path& log : logs) {
+    keys.push_back(site_name + "/" + floor.name + "/" + recording_name(log));
+  }
+  const Split split = given_split ? *given_split : random_split(keys, kSplitSeed);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const auto entry = split.find(keys[i]);
+    if (entry == split.end()) continue;
+    (entry->second.part == Part::kTrain ? floor.train : floor.test).push_back(logs[i]);
+    found.insert(keys[i]);
+  }
+  return floor;
 }
 
-/// Finds sites, floors and logs; deals the logs into train and test.
-core::Result<std::vector<SiteFolder>> list_folders(const fs::path& folder,
-                                                   const std::optional<Split>& given_split) {
-  constexpr std::uint64_t kSplitSeed = 1;
-  std::vector<SiteFolder> sites;
-  std::size_t log_count = 0;
-  for (const fs::path& site_path : sorted_entries(folder, true)) {
-    SiteFolder site{site_path.filename().string(), {}};
-    for (const fs::path& floor_path : sorted_entries(site_path, true)) {
-      FloorFolder floor{floor_path.filename().string(), floor_path, {}, {}, {}};
-      const std::vector<fs::path> logs = sorted_entries(floor_path / "path_data_files", false);
-      const std::string prefix = site.name + "/" + floor.name + "/";
-      std::vector<std::string> keys;
-      for (const fs::path& log : logs) keys.push_back(prefix + recording_name(log));
-      const Split split = given_split ? *given_split : random_split(keys, kSplitSeed);
-      for (std::size_t i = 0; i < logs.size(); ++i) {
-        const auto part = split.find(keys[i]);
-        if (part == split.end()) continue;
-        (part->second == Part::kTrain ? floor.train : floor.test).push_back(logs[i]);
-        ++log_count;
-      }
-      if (!floor.train.empty() || !floor.test.empty()) site.floors.push_back(std::move(floor));
-    }
-    if (!site.floors.empty()) sites.push_back(std::move(site));
+core::Result<SiteFolder> read_site_folder(const fs::path& path,
+                                          const std::optional<Split>& given_split,
+                                          std::set<std::string>& found) {
+  SiteFolder site{path.filename().string(), path, {}};
+  const auto entries = list_folder(path);
+  if (!entries) return tl::unexpected(entries.error());
+  for (const fs::path& floor_path : entries->folders) {
+    auto floor = read_floor_folder(site.name, floor_path, given_split, found);
+    if (!floor) return tl::unexpected(floor.error());
+    if (!floor->train.empty() || !floor->test.empty()) site.floors.push_back(*std::move(floor));
   }
-  if (log_count == 0) {
+  return site;
+}
+
+/// Finds the sites that have tests, with all their floors and logs.
+core::Result<std::vector<SiteFolder>> list_sites(const fs::path& folder,
+                                                 const std::optional<Split>& given_split,
+                                                 std::set<std::string>& found) {
+  const auto entries = list_folder(folder);
+  if (!entries) return tl::unexpected(entries.error());
+  std::vector<SiteFolder> sites;
+  for (const fs::path& site_path : entries->folders) {
+    auto site = read_site_folder(site_path, given_split, found);
+    if (!site) return tl::unexpected(site.error());
+    const bool tested = std::ranges::any_of(
+        site->floors, [](const FloorFolder& floor) { return !floor.test.empty(); });
+    if (tested) sites.push_back(*std::move(site));
+  }
+  if (found.empty()) {
     return core::fail(core::ErrorCode::kFileNotFound,
                       "no log found as <site>/<floor>/path_data_files/*.txt[.zst] that the split "
                       "names; check folder and split",
@@ -75,17 +96,27 @@ core::Result<std::vector<SiteFolder>> list_folders(const fs::path& folder,
   return sites;
 }
 
-/// The floor's plan if its files are there, else a bare floor of the size that is known.
-core::Result<site::FloorDraft> read_floor(const FloorFolder& folder, const core::Bounds2& marked) {
-  const fs::path geojson_path = folder.path / "geojson_map.json";
-  const fs::path info_path = folder.path / "floor_info.json";
-  if (fs::exists(geojson_path) && fs::exists(info_path)) {
-    const auto geojson = core::read_file(geojson_path);
-    const auto info = core::read_file(info_path);
-    if (!geojson) return tl::unexpected(geojson.error());
-    if (!info) return tl::unexpected(info.error());
-    return site::parse_ilc_floor(*geojson, *info, folder.name, folder.path.string());
+tl::unexpected<core::Error> fail_unmapped(const SiteFolder& site, const FloorFolder& floor) {
+  return core::fail(core::ErrorCode::kMapMissing,
+                    "its floor " + site.name + "/" + floor.name +
+                        " has no radio map; put some of the floor's traces into train",
+                    floor.test.front().string());
+}
+
+/// Told before any log is read.
+core::Result<void> check_trained(const std::vector<SiteFolder>& sites) {
+  for (const SiteFolder& site : sites) {
+    for (const FloorFolder& floor : site.floors) {
+      if (!floor.test.empty() && floor.train.empty()) return fail_unmapped(site, floor);
+    }
   }
+  return {};
+}
+
+/// The floor's plan or size if its files are there, else a bare floor around the marks.
+core::Result<site::FloorDraft> read_floor(const FloorFolder& folder, const core::Bounds2& marked) {
+  std::error_code ignored;
+  if (fs::exists(folder.path / "floor_info.json", ignored)) return read_ilc_floor(folder.path);
   return site::bare_floor(folder.name, marked);
 }
 
@@ -137,7 +168,11 @@ class SiteLoader {
       recording.samples.shrink_to_fit();
     }
     auto surveyed = builder.build();
-    if (!surveyed) return tl::unexpected(surveyed.error());
+    if (!surveyed) {
+      core::Error error = surveyed.error();
+      if (error.place.empty()) error.place = folder_.path.string();
+      return tl::unexpected(std::move(error));
+    }
     return pipeline::Model::create(std::make_shared<site::Site>(std::move(surveyed->parts)),
                                    context_.options);
   }
@@ -148,7 +183,7 @@ class SiteLoader {
                                    const std::function<void()>& advance) {
     FloorFolder& floor = folder_.floors[floor_index];
     for (const fs::path& path : floor.train) {
-      auto recording = log::load_recording(path);
+      auto recording = load_noted(path, context_.log);
       if (!recording) return tl::unexpected(recording.error());
       floor.train_paths.push_back(marks_of(recording->samples));
       recordings.push_back({recording_name(path), std::move(recording->samples),
@@ -177,30 +212,44 @@ class SiteLoader {
   const DatasetContext& context_;
 };
 
+/// Adds one test, unless the log has no marks.
+core::Result<void> add_test(const fs::path& path, const std::string& group,
+                            const std::shared_ptr<const pipeline::Model>& model, core::FloorId id,
+                            const std::vector<MarkedPath>& train_paths, const core::LogSink& log,
+                            Dataset& dataset) {
+  const auto recording = load_marked_log(path, *model->site(), id, log);
+  if (!recording) return tl::unexpected(recording.error());
+  if (recording->truths.empty()) {
+    if (log) {
+      log(core::LogLevel::kWarning, "evaluate",
+          path.string() + ": no mark to judge by (TYPE_WAYPOINT); left out");
+    }
+    return {};
+  }
+  TestCase test;
+  test.name = recording_name(path);
+  test.group = group;
+  test.covered = is_covered(marks_of(recording->samples), train_paths);
+  test.model = model;
+  test.floor = id;
+  test.load = [path, model, id] { return load_marked_log(path, *model->site(), id, {}); };
+  dataset.tests.push_back(std::move(test));
+  return {};
+}
+
 core::Result<void> add_tests(const SiteFolder& site,
                              const std::shared_ptr<const pipeline::Model>& model,
-                             Dataset& dataset) {
+                             const core::LogSink& log, Dataset& dataset) {
   for (std::size_t i = 0; i < site.floors.size(); ++i) {
     const FloorFolder& floor = site.floors[i];
     const core::FloorId id{static_cast<std::uint16_t>(i)};
-    const bool mapped = is_mapped(*model->site(), id);
+    if (!floor.test.empty() && !is_mapped(*model->site(), id)) return fail_unmapped(site, floor);
     for (const fs::path& path : floor.test) {
-      if (!mapped) {
-        return core::fail(core::ErrorCode::kMapMissing,
-                          "its floor " + site.name + "/" + floor.name +
-                              " has no radio map; put some of the floor's traces into train",
-                          path.string());
+      if (auto added = add_test(path, site.name + "/" + floor.name, model, id, floor.train_paths,
+                                log, dataset);
+          !added) {
+        return added;
       }
-      TestCase test;
-      test.name = recording_name(path);
-      test.group = site.name + "/" + floor.name;
-      test.model = model;
-      test.floor = id;
-      test.load = [path, model, id] { return load_marked_log(path, *model->site(), id); };
-      const auto recording = test.load();
-      if (!recording) return tl::unexpected(recording.error());
-      test.covered = is_covered(marks_of(recording->samples), floor.train_paths);
-      dataset.tests.push_back(std::move(test));
     }
   }
   return {};
@@ -217,8 +266,11 @@ core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
     if (!read) return tl::unexpected(read.error());
     split = *std::move(read);
   }
-  auto sites = list_folders(folder, split);
+  std::set<std::string> found;
+  auto sites = list_sites(folder, split, found);
   if (!sites) return tl::unexpected(sites.error());
+  if (split) note_missing(*split, found, *split_path, context.log);
+  if (auto trained = check_trained(*sites); !trained) return tl::unexpected(trained.error());
   std::size_t total = 0;
   for (const SiteFolder& site : *sites) {
     for (const FloorFolder& floor : site.floors) total += floor.train.size();
@@ -231,7 +283,7 @@ core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
       if (context.progress) context.progress(++done, total);
     });
     if (!model) return tl::unexpected(model.error());
-    if (auto added = add_tests(site, *model, dataset); !added) {
+    if (auto added = add_tests(site, *model, context.log, dataset); !added) {
       return tl::unexpected(added.error());
     }
   }

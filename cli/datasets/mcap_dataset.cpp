@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "datasets/mcap_dataset.hpp"
 
-#include "datasets/split.hpp"
 #include "datasets/test_recording.hpp"
 
 namespace waylode::cli {
@@ -14,13 +13,9 @@ core::Result<Dataset> load_log_dataset(std::shared_ptr<const site::Site> site,
   if (!model) return tl::unexpected(model.error());
   Dataset dataset{"mcap", false, {}};
   for (const std::filesystem::path& path : logs) {
-    TestCase test;
-    test.name = recording_name(path);
-    test.model = *model;
-    test.load = [path, site] { return load_marked_log(path, *site, std::nullopt); };
-    auto named = name_by_floor(std::move(test), path, site->name());
-    if (!named) return tl::unexpected(named.error());
-    dataset.tests.push_back(*std::move(named));
+    auto test = make_log_test(path, *model, site->name(), context.log);
+    if (!test) return tl::unexpected(test.error());
+    dataset.tests.push_back(*std::move(test));
     if (context.progress) context.progress(dataset.tests.size(), logs.size());
   }
   return dataset;

@@ -3,26 +3,13 @@
 #include "datasets/split.hpp"
 
 #include <algorithm>
-#include <sstream>
 
+#include "datasets/csv.hpp"
 #include "waylode/core/file.hpp"
 #include "waylode/core/rng.hpp"
 
 namespace waylode::cli {
 namespace {
-
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-      cell = cell.substr(1, cell.size() - 2);
-    }
-    cells.push_back(cell);
-  }
-  return cells;
-}
 
 tl::unexpected<core::Error> refuse(const std::filesystem::path& path, std::size_t line,
                                    const std::string& message) {
@@ -30,49 +17,69 @@ tl::unexpected<core::Error> refuse(const std::filesystem::path& path, std::size_
                     path.string() + ":" + std::to_string(line));
 }
 
+/// Places of the wanted columns in the header.
+core::Result<std::vector<std::size_t>> find_columns(const std::filesystem::path& path,
+                                                    const CsvRow& header,
+                                                    const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> columns;
+  for (const std::string& name : wanted) {
+    const auto found = std::ranges::find(header.cells, name);
+    if (found == header.cells.end()) {
+      return refuse(path, header.line, "no column '" + name + "' in the header; write one");
+    }
+    columns.push_back(static_cast<std::size_t>(found - header.cells.begin()));
+  }
+  return columns;
+}
+
+/// `columns`: those of the key, then that of the part.
+core::Result<void> add_row(const std::filesystem::path& path, const CsvRow& row,
+                           const std::vector<std::size_t>& columns, Split& split) {
+  std::string key;
+  for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+    key += (i == 0 ? "" : "/") + row.cells[columns[i]];
+  }
+  const std::string& word = row.cells[columns.back()];
+  if (word != "train" && word != "test") {
+    return refuse(path, row.line, "split is '" + word + "'; write 'train' or 'test'");
+  }
+  const Part part = word == "train" ? Part::kTrain : Part::kTest;
+  const auto [entry, added] = split.try_emplace(key, SplitEntry{part, row.line});
+  if (!added && entry->second.part != part) {
+    return refuse(path, row.line,
+                  "'" + key + "' is '" + word + "' here and not on line " +
+                      std::to_string(entry->second.line) + "; keep one of the two");
+  }
+  return {};
+}
+
 }  // namespace
 
 core::Result<Split> read_split(const std::filesystem::path& path,
                                const std::vector<std::string>& key_columns) {
-  auto text = core::read_file(path);
+  const auto text = core::read_file(path);
   if (!text) return tl::unexpected(text.error());
-  std::istringstream lines(*text);
-  std::string line;
-  std::getline(lines, line);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-  const std::vector<std::string> header = cells_of(line);
-
-  std::vector<std::size_t> columns;
+  const auto rows = parse_csv(*text, path.string());
+  if (!rows) return tl::unexpected(rows.error());
+  const CsvRow header = rows->empty() ? CsvRow{1, {}} : rows->front();
   std::vector<std::string> wanted = key_columns;
   wanted.push_back("split");
-  for (const std::string& name : wanted) {
-    const auto found = std::ranges::find(header, name);
-    if (found == header.end()) {
-      return refuse(path, 1, "no column '" + name + "' in the header; write one");
-    }
-    columns.push_back(static_cast<std::size_t>(found - header.begin()));
-  }
+  const auto columns = find_columns(path, header, wanted);
+  if (!columns) return tl::unexpected(columns.error());
+
   Split split;
-  for (std::size_t number = 2; std::getline(lines, line); ++number) {
-    if (line.empty() || line == "\r") continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != header.size()) {
-      return refuse(path, number,
-                    "expected " + std::to_string(header.size()) + " cells, found " +
-                        std::to_string(cells.size()));
+  for (std::size_t i = 1; i < rows->size(); ++i) {
+    const CsvRow& row = (*rows)[i];
+    if (row.cells.size() != header.cells.size()) {
+      return refuse(path, row.line,
+                    "expected " + std::to_string(header.cells.size()) + " cells, found " +
+                        std::to_string(row.cells.size()));
     }
-    std::string key;
-    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-      key += (i == 0 ? "" : "/") + cells[columns[i]];
+    if (auto added = add_row(path, row, *columns, split); !added) {
+      return tl::unexpected(added.error());
     }
-    const std::string& part = cells[columns.back()];
-    if (part != "train" && part != "test") {
-      return refuse(path, number, "split is '" + part + "'; write 'train' or 'test'");
-    }
-    split[key] = part == "train" ? Part::kTrain : Part::kTest;
   }
-  if (split.empty()) return refuse(path, 1, "the split names no recording");
+  if (split.empty()) return refuse(path, header.line, "the split names no recording");
   return split;
 }
 
@@ -82,9 +89,25 @@ Split random_split(std::vector<std::string> keys, std::uint64_t seed) {
   for (std::size_t i = keys.size(); i > 1; --i) std::swap(keys[i - 1], keys[rng.below(i)]);
   Split split;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    split[keys[i]] = i < keys.size() / 4 ? Part::kTest : Part::kTrain;
+    split[keys[i]].part = i < keys.size() / 4 ? Part::kTest : Part::kTrain;
   }
   return split;
+}
+
+void note_missing(const Split& split, const std::set<std::string>& found,
+                  const std::filesystem::path& path, const core::LogSink& log) {
+  std::size_t missing = 0;
+  const Split::value_type* first = nullptr;
+  for (const Split::value_type& entry : split) {
+    if (found.contains(entry.first)) continue;
+    ++missing;
+    if (first == nullptr || entry.second.line < first->second.line) first = &entry;
+  }
+  if (first == nullptr || !log) return;
+  log(core::LogLevel::kWarning, "evaluate",
+      path.string() + ":" + std::to_string(first->second.line) + ": " + std::to_string(missing) +
+          " of " + std::to_string(split.size()) + " recordings match no log, the first is '" +
+          first->first + "'");
 }
 
 std::string recording_name(const std::filesystem::path& path) {

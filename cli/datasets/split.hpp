@@ -5,27 +5,37 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "waylode/core/log_sink.hpp"
 #include "waylode/core/result.hpp"
 
 namespace waylode::cli {
 
 enum class Part { kTrain, kTest };
 
+struct SplitEntry {
+  Part part = Part::kTrain;
+  std::size_t line = 0;  ///< Of the table that says so; 0 when dealt by random_split.
+};
+
 /// Which recordings train and which test, by key ("site/floor/trace" or a log's name).
-using Split = std::map<std::string, Part>;
+using Split = std::map<std::string, SplitEntry>;
 
 /// Reads a split table: CSV with a header that has `key_columns` and `split` (`train` or `test`) in
-/// any order. Keys are the key columns joined by '/'. kTableInvalid names line and remedy.
+/// any order. Keys are the key columns joined by '/'. kTableInvalid names line and remedy, also for
+/// a key that is `train` on one line and `test` on another; saying the same twice is no error.
 core::Result<Split> read_split(const std::filesystem::path& path,
                                const std::vector<std::string>& key_columns);
 
 /// A quarter of the keys as test, chosen by `seed`; the same for any order of `keys`.
 Split random_split(std::vector<std::string> keys, std::uint64_t seed);
+
+/// Notes to `log`, as one line, that rows of the table at `path` name logs that are not `found`.
+void note_missing(const Split& split, const std::set<std::string>& found,
+                  const std::filesystem::path& path, const core::LogSink& log);
 
 /// A log's name as splits use it: the file name without ".zst" and without ".txt" or ".mcap".
 std::string recording_name(const std::filesystem::path& path);

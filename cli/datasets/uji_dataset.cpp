@@ -71,7 +71,7 @@ core::Result<Dataset> load_uji_dataset(const std::filesystem::path& training,
                             ", which the training table lacks; leave the row out",
                         validation.string());
     }
-    TestCase test{std::to_string(i + 1), "uji/" + floor_name(row), false, *model, floor, {}};
+    TestCase test{std::to_string(i + 1), "uji/" + floor_name(row), false, *model, floor, true, {}};
     test.load = [row = std::move(row), floor]() -> core::Result<TestRecording> {
       return recording_of(row, *floor);
     };

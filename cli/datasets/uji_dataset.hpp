@@ -8,7 +8,8 @@
 
 namespace waylode::cli {
 
-/// UJIIndoorLoc: a table of surveyed fingerprints and one of tests, each row a test of its own.
+/// UJIIndoorLoc: a table of surveyed fingerprints and one of tests, each row a test of its own,
+/// scored even when nothing was heard.
 /// Floors are named "<building>/<floor>". Distances are in the tables' metres (EPSG:3857-like;
 /// times 0.766 for metres on the ground).
 core::Result<Dataset> load_uji_dataset(const std::filesystem::path& training,

@@ -392,6 +392,190 @@ class Simulate(CliTest):
         self.assertNotEqual(logs[0], logs[2])
 
 
+class Evaluate(CliTest):
+    """A hand-made tree: site "Mall, East wing" with floors F1 and F2, without plans."""
+    KEYS = ["method", "group", "n", "mean_m", "p50_m", "p75_m", "p90_m", "p95_m", "ipin_p75_m",
+            "floor_hit_ratio", "inside_68_ratio", "inside_95_ratio", "unknown_ratio",
+            "n_before_scan", "n_ok", "ok_mean_m", "after10s_mean_m", "trace_floor_hit_ratio",
+            "within_1_m", "within_1p5_m", "within_2_m", "within_3_m", "region_95_median_m2",
+            "walked_s", "cpu_s"]
+    SITE = "Mall, East wing"
+    SPLIT = """site,floor,trace,split
+"Mall, East wing",F1,a,train
+"Mall, East wing",F1,b,train
+"Mall, East wing",F1,t,test
+"Mall, East wing",F2,a,train
+"Mall, East wing",F2,b,train
+"Mall, East wing",F2,t,test
+"""
+
+    def setUp(self):
+        self.tree = Path(tempfile.mkdtemp(dir=self.folder))
+        for floor, start_ms, network in (("F1", 1_700_000_000_000, 1), ("F2", 1_700_000_500_000, 2)):
+            self.trace(floor, "a", start_ms, network)
+            self.trace(floor, "b", start_ms + 100_000, network)
+        self.trace("F1", "t", 1_700_001_000_000, 1)
+        # Too far from where F2 was surveyed to be covered; heard from its first mark on.
+        self.trace("F2", "t", 1_700_002_000_000, 2, y_m=25.0, first_scan_ms=0)
+
+    def trace(self, floor, name, start_ms, network, y_m=5.0, first_scan_ms=2000, marks=3,
+              extra=""):
+        """Marks at 0, 5 and 10 s, 5 m apart; a scan every 2 s, its rows heard at its time."""
+        lines = [(5000 * i, f"TYPE_WAYPOINT\t{5.0 + 5.0 * i}\t{y_m}") for i in range(marks)]
+        for at_ms in range(0, 10_001, 200):
+            lines.append((at_ms, "TYPE_ACCELEROMETER\t0.0\t0.0\t9.81\t3"))
+        for at_ms in range(first_scan_ms, 10_001, 2000):
+            for station in range(1, 5):
+                lines.append((at_ms, f"TYPE_WIFI\tnet\t02:00:00:00:0{network}:0{station}\t"
+                              f"{-40 - 5 * station - at_ms // 1000}\t2412\t{start_ms + at_ms}"))
+        lines.sort(key=lambda line: line[0])
+        folder = self.tree / self.SITE / floor / "path_data_files"
+        folder.mkdir(parents=True, exist_ok=True)
+        text = "".join(f"{start_ms + at_ms}\t{rest}\n" for at_ms, rest in lines) + extra
+        (folder / f"{name}.txt").write_text(text, encoding="utf-8")
+        return folder / f"{name}.txt"
+
+    def evaluate(self, split=SPLIT, *words, methods="wknn,pdr,smoothed"):
+        self.out = self.tree.parent / (self.tree.name + ".json")
+        self.split = self.file(self.tree.name + ".csv", split.encode())
+        return run("evaluate", "ilc", self.tree, "--split", self.split, "--methods", methods,
+                   "--out", self.out, *words)
+
+    def results(self) -> dict:
+        rows = json.loads(self.out.read_text(encoding="utf-8"))["results"]
+        return {(row["method"], row["group"]): row for row in rows}
+
+    def test_json_is_the_contract_and_counts_are_right(self):
+        folders = [path for path in self.tree.rglob("*") if path.is_dir()]
+        for folder in folders:
+            folder.chmod(0o555)
+        result = self.evaluate()
+        for folder in folders:
+            folder.chmod(0o755)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        told = json.loads(self.out.read_text(encoding="utf-8"))
+        self.assertEqual(list(told), ["dataset", "command", "results"])
+        self.assertEqual(told["dataset"], "ilc")
+        self.assertEqual({tuple(row) for row in told["results"]}, {tuple(self.KEYS)})
+        f1, f2 = self.SITE + "/F1", self.SITE + "/F2"
+        # (n, n_before_scan). F1's first mark comes before its first scan, F2's with it; dead
+        # reckoning is told the first mark; a whole-track method answers for every mark.
+        self.assertEqual({key: (row["n"], row["n_before_scan"])
+                          for key, row in self.results().items()},
+                         {("wknn", "all"): (5, 1), ("wknn", "covered"): (2, 1),
+                          ("wknn", f1): (2, 1), ("wknn", f2): (3, 0),
+                          ("pdr", "all"): (4, 2), ("pdr", "covered"): (2, 1),
+                          ("pdr", f1): (2, 1), ("pdr", f2): (2, 1),
+                          ("smoothed", "all"): (6, 0), ("smoothed", "covered"): (3, 0),
+                          ("smoothed", f1): (3, 0), ("smoothed", f2): (3, 0)})
+        self.assertEqual({row["walked_s"] for (_, group), row in self.results().items()
+                          if group == "all"}, {20.0})
+
+    def test_plain_log_wins_over_packed_and_other_files_are_no_logs(self):
+        folder = self.tree / self.SITE / "F1" / "path_data_files"
+        (folder / "t.txt.zst").write_bytes(b"no zstd")
+        (folder / "t.md").write_bytes(b"no log")
+        self.assertEqual(self.evaluate(methods="wknn").stderr, "")
+        self.assertEqual(self.results()["wknn", "all"]["n"], 5)
+
+    def test_without_split_a_quarter_of_the_logs_is_test(self):
+        for floor, network in (("F1", 1), ("F2", 2)):
+            self.trace(floor, "c", 1_700_003_000_000, network)
+            (self.tree / self.SITE / floor / "path_data_files" / "notes.md").write_text("no log")
+        out = self.folder / "seeded.json"
+        result = run("evaluate", "ilc", self.tree, "--methods", "smoothed", "--out", out)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = json.loads(out.read_text(encoding="utf-8"))["results"]
+        self.assertEqual([row["n"] for row in rows if row["group"] == "all"], [6])
+
+    def test_what_is_left_out_is_noted(self):
+        blind = self.trace("F1", "blind", 1_700_004_000_000, 1, marks=0)
+        bad = self.trace("F1", "b", 1_700_000_100_000, 1,
+                         extra="1700000110001\tTYPE_ACCELEROMETER\tnan\t1\t2\t3\n")
+        split = (self.SPLIT + f'"{self.SITE}",F1,blind,test\n' + "z,F9,gone,test\nb,F1,a,train\n")
+        result = self.evaluate(split, methods="wknn")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        notes = result.stderr.splitlines()
+        self.assertEqual(len(notes), 3, result.stderr)
+        self.assertIn(f"{self.split}:9: 2 of 9 recordings match no log", notes[0])
+        self.assertIn("z/F9/gone", notes[0])
+        self.assertIn(f"{bad}: 1 bad records", notes[1])
+        self.assertIn(f"{blind}: no mark", notes[2])
+        self.assertEqual(self.results()["wknn", "all"]["n"], 5)
+
+    def test_floor_without_map_names_the_trace(self):
+        split = self.SPLIT.replace("F2,a,train", "F2,a,test").replace("F2,b,train", "F2,b,test")
+        self.assert_error(self.evaluate(split), "map_missing", "F2/path_data_files/a.txt", "train")
+        self.assertFalse(self.out.exists())
+
+    def test_site_without_tests_is_not_mapped(self):
+        other = self.tree / "other" / "F1" / "path_data_files"
+        other.mkdir(parents=True)
+        (other / "a.txt").write_bytes(b"")
+        result = self.evaluate(self.SPLIT + "other,F1,a,train\n", methods="wknn")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_size_without_drawing_is_used(self):
+        info = self.tree / self.SITE / "F1" / "floor_info.json"
+        info.write_text('{"map_info": {"height": 60.0, "width": 80.0}}', encoding="utf-8")
+        self.assertEqual(self.evaluate(methods="wknn").returncode, 0)
+        info.write_text('{"map_info": {"height": -1.0, "width": 80.0}}', encoding="utf-8")
+        self.assert_error(self.evaluate(), "plan_invalid", info)
+
+    def test_bad_splits_name_the_line(self):
+        self.assert_error(self.evaluate("site,floor,trace\nx,F1,a\n"), "table_invalid",
+                          f"{self.split}:1", "split")
+        self.assert_error(self.evaluate(self.SPLIT + f'"{self.SITE}",F1,a,test\n'),
+                          "table_invalid", f"{self.split}:8", "line 2")
+
+    def test_missing_folder(self):
+        missing = self.folder / "nowhere"
+        self.assert_error(run("evaluate", "ilc", missing), "file_not_found", missing)
+        self.assert_error(run("evaluate", "ipin", missing), "file_not_found", missing)
+
+    def test_results_that_could_not_be_kept_stop_it_before_work(self):
+        missing = self.folder / "nowhere"
+        for option in ("--out", "--report"):
+            # The data folder is missing too: the output is looked at first.
+            result = run("evaluate", "ilc", missing, option, missing / "out.json")
+            self.assert_error(result, "file_unwritable", missing / "out.json")
+        self.assertFalse(missing.exists())
+
+    def test_a_method_is_named_once(self):
+        self.assert_error(self.evaluate(methods="wknn,fused,wknn"), "invalid_argument", "wknn")
+
+    def test_uji_scores_rows_where_nothing_was_heard(self):
+        header = b"WAP001,WAP002,LONGITUDE,LATITUDE,FLOOR,BUILDINGID\n"
+        train = self.file("train.csv", header + b"-50,-70,0,0,0,1\n-70,-50,10,0,0,1\n")
+        tests = self.file("tests.csv", header + b"-50,-70,1,0,0,1\n100,100,9,0,0,1\n")
+        out = self.folder / "uji.json"
+        result = run("evaluate", "uji", train, tests, "--out", out)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = json.loads(out.read_text(encoding="utf-8"))["results"]
+        self.assertEqual([(row["group"], row["n"], row["n_before_scan"]) for row in rows],
+                         [("all", 2, 0), ("uji/1/0", 2, 0)])
+
+    def test_ipin_passes_over_what_is_no_log_and_refuses_twins(self):
+        mini = (ROOT / "testdata/getsensordata_mini/mini.txt").read_bytes()
+        log = self.file("one_floor.txt", mini.replace(b"11.110964442580;1;1", b"11.110964442580;0;1"))
+        tree = self.folder / "ipin"
+        for name in "abcd":
+            (tree / name).mkdir(parents=True)
+            shutil.copy(log, tree / name / f"{name}.txt")
+        readme = tree / "readme.txt"
+        readme.write_text("About these logs\n", encoding="utf-8")
+        result = run("evaluate", "ipin", tree, "--methods", "wknn")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"{readme}: no log", result.stderr)
+        shutil.copy(log, tree / "b" / "a.txt")
+        self.assert_error(run("evaluate", "ipin", tree), "invalid_argument",
+                          tree / "a" / "a.txt", tree / "b" / "a.txt")
+        split = self.file("ipin.csv", b"log,split\nb,train\nc,test\n")
+        result = run("evaluate", "ipin", tree, "--split", split, "--methods", "wknn")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn(str(readme), result.stderr)
+
+
 class Config(CliTest):
     def test_default_toml_is_what_the_program_dumps(self):
         shipped = (ROOT / "config/default.toml").read_text(encoding="utf-8")
