@@ -3,6 +3,8 @@
 #include "waylode/fusion/fused_tracker.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "waylode/core/angle.hpp"
 #include "waylode/core/covariance.hpp"
@@ -11,22 +13,35 @@ namespace waylode::fusion {
 
 core::Result<void> StateRules::validate() const {
   if (!(ok_radius_m > 0.0 && show_radius_m >= ok_radius_m && floor_probability >= 0.0 &&
-        known_share_ratio >= 0.0)) {
-    return core::fail(core::ErrorCode::kInvalidOptions, "need 0 < ok_radius_m <= show_radius_m",
+        known_share_ratio >= 0.0 && stale_after_s > 0.0 && lost_after_s >= stale_after_s)) {
+    return core::fail(core::ErrorCode::kInvalidOptions,
+                      "need 0 < ok_radius_m <= show_radius_m, 0 < stale_after_s <= lost_after_s",
                       "state_rules");
   }
   return {};
 }
 
-core::FixState state_of(const core::Belief& belief, double known_share_ratio,
-                        const StateRules& rules) {
-  if (known_share_ratio < rules.known_share_ratio) return core::FixState::kOutside;
+core::FixState state_of(const core::Belief& belief, core::DeviceTime time,
+                        const std::optional<HeardScan>& scan, const StateRules& rules) {
+  if (scan && scan->known_share_ratio < rules.known_share_ratio) return core::FixState::kOutside;
+  const double age_s = scan ? std::abs(core::to_seconds(time - scan->delivered)) : 0.0;
+  if (age_s > rules.lost_after_s) return core::FixState::kUnknown;
   const double radius_m = core::confidence_ellipse(belief.covariance_m2, 0.95).semi_major_m;
   if (radius_m > rules.show_radius_m) return core::FixState::kUnknown;
-  if (radius_m > rules.ok_radius_m || belief.floor_probability < rules.floor_probability) {
+  if (radius_m > rules.ok_radius_m || belief.floor_probability < rules.floor_probability ||
+      age_s > rules.stale_after_s) {
     return core::FixState::kLowConfidence;
   }
   return core::FixState::kOk;
+}
+
+std::optional<HeardScan> nearest_scan(std::span<const HeardScan> scans, core::DeviceTime time) {
+  if (scans.empty()) return std::nullopt;
+  const auto after = std::ranges::lower_bound(scans, time, {}, &HeardScan::delivered);
+  if (after == scans.begin()) return *after;
+  const auto before = std::prev(after);
+  if (after == scans.end()) return *before;
+  return after->delivered - time < time - before->delivered ? *after : *before;
 }
 
 PlanarMeasurement to_site_frame(const site::Site& site,
@@ -76,17 +91,19 @@ FusedTracker::FusedTracker(std::shared_ptr<const site::Site> site, const Options
 void FusedTracker::start(core::DeviceTime time, core::FloorId floor,
                          const core::Vector2& position_m, double sigma_m) {
   known_floor_ = floor;
+  placed_at_ = time;
   planar_.start(time, site_->site_from_floor(floor, position_m), sigma_m);
 }
 
 void FusedTracker::add(const observation::MotionDelta& motion) {
   if (!planar_.started() || !floor()) return;
+  if (placed_at_ && motion.end <= *placed_at_) return;
   planar_.add(on_site_frame(motion, site_->floor(*floor())));
 }
 
 void FusedTracker::add(const observation::RadioObservation& observation) {
   floor_filter_.add(observation);
-  known_share_ratio_ = observation.known_share_ratio;
+  newest_scan_ = HeardScan{observation.delivered, observation.known_share_ratio};
   const observation::FloorHypothesis* hypothesis = find_hypothesis(observation, *floor());
   if (hypothesis != nullptr) planar_.add(to_site_frame(*site_, observation, *hypothesis));
 }
@@ -96,8 +113,8 @@ std::optional<core::Belief> FusedTracker::belief_at(core::DeviceTime time) const
   return to_floor_frame(*site_, *floor(), floor_probability(), planar_.at(time));
 }
 
-core::FixState FusedTracker::state_for(const core::Belief& belief) const {
-  return state_of(belief, known_share_ratio_, options_.state);
+core::FixState FusedTracker::state_at(core::DeviceTime time, const core::Belief& belief) const {
+  return state_of(belief, time, newest_scan_, options_.state);
 }
 
 std::optional<core::FloorId> FusedTracker::floor() const {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "waylode/core/fix.hpp"
 #include "waylode/fusion/floor_filter.hpp"
@@ -19,13 +20,30 @@ struct StateRules {
   double show_radius_m = 40.0;      ///< Beyond this the position is unknown.
   double floor_probability = 0.7;   ///< Less, and the state is low_confidence at best.
   double known_share_ratio = 0.35;  ///< Less of the signal known: off the surveyed area.
+  /// Phones scan every few seconds, or twice a minute where the system holds them back: a scan
+  /// older than that is missing, and the state is low_confidence at best.
+  double stale_after_s = 30.0;
+  double lost_after_s = 120.0;  ///< Without a scan this long: unknown, whatever the covariance.
 
   core::Result<void> validate() const;
   bool operator==(const StateRules&) const = default;
 };
 
-core::FixState state_of(const core::Belief& belief, double known_share_ratio,
-                        const StateRules& rules);
+/// A scan as far as the state depends on it.
+struct HeardScan {
+  core::DeviceTime delivered;
+  double known_share_ratio = 1.0;  ///< 0 for a scan that the map knows nothing of.
+};
+
+/// The state that a belief for `time` deserves, given the scan nearest to it. Without any scan (a
+/// method that does not listen) the covariance alone speaks. Off the surveyed area is `outside`
+/// however old the scan.
+core::FixState state_of(const core::Belief& belief, core::DeviceTime time,
+                        const std::optional<HeardScan>& scan, const StateRules& rules);
+
+/// The scan delivered nearest to `time`, the earlier of two; nullopt when there is none. `scans`
+/// by time.
+std::optional<HeardScan> nearest_scan(std::span<const HeardScan> scans, core::DeviceTime time);
 
 /// A radio position on one floor, carried to the site frame.
 PlanarMeasurement to_site_frame(const site::Site& site,
@@ -56,15 +74,19 @@ class FusedTracker {
   FusedTracker(std::shared_ptr<const site::Site> site, const Options& options,
                std::optional<core::FloorId> known_floor, bool keep_history = false);
 
-  /// Starts from a place instead of the first scan.
+  /// Starts from a place instead of the first scan. Steps that ended by then are passed over.
   void start(core::DeviceTime time, core::FloorId floor, const core::Vector2& position_m,
              double sigma_m);
   void add(const observation::MotionDelta& motion);
   void add(const observation::RadioObservation& observation);
+  /// A scan that the map knows nothing of: no news of the place, but `outside` until it is known
+  /// again.
+  void hear_unknown(core::DeviceTime delivered) { newest_scan_ = HeardScan{delivered, 0.0}; }
 
   /// nullopt before anything is known. `time` is not before the last event.
   std::optional<core::Belief> belief_at(core::DeviceTime time) const;
-  core::FixState state_for(const core::Belief& belief) const;
+  /// For a belief of belief_at(time), by the newest scan.
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
 
   const PlanarTracker& planar() const { return planar_; }
   PlanarTracker& planar() { return planar_; }
@@ -77,7 +99,8 @@ class FusedTracker {
   std::optional<core::FloorId> known_floor_;
   FloorFilter floor_filter_;
   PlanarTracker planar_;
-  double known_share_ratio_ = 1.0;
+  std::optional<core::DeviceTime> placed_at_;  ///< By start().
+  std::optional<HeardScan> newest_scan_;
 };
 
 }  // namespace waylode::fusion

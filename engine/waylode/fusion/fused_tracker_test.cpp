@@ -35,27 +35,74 @@ StateRules rules() {
   result.show_radius_m = 30.0;
   result.floor_probability = 0.8;
   result.known_share_ratio = 0.4;
+  result.stale_after_s = 20.0;
+  result.lost_after_s = 60.0;
   return result;
+}
+
+FixState judged(const core::Belief& belief, double known_share_ratio, double age_s = 0.0) {
+  return state_of(belief, at_s(100.0), HeardScan{at_s(100.0 - age_s), known_share_ratio}, rules());
 }
 
 TEST(StateOf, FollowsTheWidestAxisOfTheRegion) {
   // The 95 % ellipse of two dimensions reaches sqrt(-2 ln 0.05) = 2.4477 sigma.
-  EXPECT_EQ(state_of(belief_of(4.08, 1.0, 1.0), 1.0, rules()), FixState::kOk);
-  EXPECT_EQ(state_of(belief_of(1.0, 4.09, 1.0), 1.0, rules()), FixState::kLowConfidence);
-  EXPECT_EQ(state_of(belief_of(12.25, 1.0, 1.0), 1.0, rules()), FixState::kLowConfidence);
-  EXPECT_EQ(state_of(belief_of(1.0, 12.26, 1.0), 1.0, rules()), FixState::kUnknown);
+  EXPECT_EQ(judged(belief_of(4.08, 1.0, 1.0), 1.0), FixState::kOk);
+  EXPECT_EQ(judged(belief_of(1.0, 4.09, 1.0), 1.0), FixState::kLowConfidence);
+  EXPECT_EQ(judged(belief_of(12.25, 1.0, 1.0), 1.0), FixState::kLowConfidence);
+  EXPECT_EQ(judged(belief_of(1.0, 12.26, 1.0), 1.0), FixState::kUnknown);
 }
 
 TEST(StateOf, LacksConfidenceWhenTheFloorIsInDoubt) {
-  EXPECT_EQ(state_of(belief_of(1.0, 1.0, 0.8), 1.0, rules()), FixState::kOk);
-  EXPECT_EQ(state_of(belief_of(1.0, 1.0, 0.79), 1.0, rules()), FixState::kLowConfidence);
-  EXPECT_EQ(state_of(belief_of(20.0, 1.0, 0.79), 1.0, rules()), FixState::kUnknown);
+  EXPECT_EQ(judged(belief_of(1.0, 1.0, 0.8), 1.0), FixState::kOk);
+  EXPECT_EQ(judged(belief_of(1.0, 1.0, 0.79), 1.0), FixState::kLowConfidence);
+  EXPECT_EQ(judged(belief_of(20.0, 1.0, 0.79), 1.0), FixState::kUnknown);
 }
 
 TEST(StateOf, IsOutsideWhereTheMapKnowsLittleWhateverTheRegion) {
-  EXPECT_EQ(state_of(belief_of(1.0, 1.0, 1.0), 0.4, rules()), FixState::kOk);
-  EXPECT_EQ(state_of(belief_of(1.0, 1.0, 1.0), 0.39, rules()), FixState::kOutside);
-  EXPECT_EQ(state_of(belief_of(50.0, 1.0, 0.1), 0.39, rules()), FixState::kOutside);
+  EXPECT_EQ(judged(belief_of(1.0, 1.0, 1.0), 0.4), FixState::kOk);
+  EXPECT_EQ(judged(belief_of(1.0, 1.0, 1.0), 0.39), FixState::kOutside);
+  EXPECT_EQ(judged(belief_of(50.0, 1.0, 0.1), 0.39), FixState::kOutside);
+}
+
+TEST(StateOf, LosesConfidenceAsTheNearestScanAges) {
+  const core::Belief sharp = belief_of(1.0, 1.0, 1.0);
+  for (const double sign : {1.0, -1.0}) {  // A smoothed instant may be before its scan.
+    EXPECT_EQ(judged(sharp, 1.0, sign * 20.0), FixState::kOk);
+    EXPECT_EQ(judged(sharp, 1.0, sign * 20.1), FixState::kLowConfidence);
+    EXPECT_EQ(judged(sharp, 1.0, sign * 60.0), FixState::kLowConfidence);
+    EXPECT_EQ(judged(sharp, 1.0, sign * 60.1), FixState::kUnknown);
+  }
+  EXPECT_EQ(judged(belief_of(50.0, 1.0, 1.0), 1.0, 20.1), FixState::kUnknown);
+  EXPECT_EQ(judged(sharp, 0.0, 1000.0), FixState::kOutside);
+}
+
+TEST(StateOf, GoesByTheCovarianceAloneWhereNoScanIsUsed) {
+  EXPECT_EQ(state_of(belief_of(1.0, 1.0, 1.0), at_s(1e4), std::nullopt, rules()), FixState::kOk);
+  EXPECT_EQ(state_of(belief_of(50.0, 1.0, 1.0), at_s(0.0), std::nullopt, rules()),
+            FixState::kUnknown);
+}
+
+TEST(NearestScan, IsTheNearestBeforeOrAfter) {
+  EXPECT_FALSE(nearest_scan({}, at_s(0.0)));
+  const std::vector<HeardScan> scans = {{at_s(0.0), 0.1}, {at_s(10.0), 0.2}, {at_s(20.0), 0.3}};
+  const auto share_at = [&](double time_s) {
+    return nearest_scan(scans, at_s(time_s))->known_share_ratio;
+  };
+  EXPECT_EQ(share_at(-5.0), 0.1);
+  EXPECT_EQ(share_at(5.0), 0.1);
+  EXPECT_EQ(share_at(5.1), 0.2);
+  EXPECT_EQ(share_at(10.0), 0.2);
+  EXPECT_EQ(share_at(14.9), 0.2);
+  EXPECT_EQ(share_at(99.0), 0.3);
+}
+
+TEST(StateRules, RejectAgesInTheWrongOrder) {
+  StateRules bad = rules();
+  bad.lost_after_s = 19.0;
+  EXPECT_FALSE(bad.validate());
+  bad = rules();
+  bad.stale_after_s = 0.0;
+  EXPECT_FALSE(bad.validate());
 }
 
 TEST(StateRules, RejectRadiiInTheWrongOrder) {
@@ -182,9 +229,35 @@ TEST(FusedTracker, CarriesThePlaceToTheNextFloorThroughTheSiteFrame) {
 TEST(FusedTracker, JudgesByTheShareKnownOfTheNewestScan) {
   FusedTracker tracker(three_floor_site(), fused_options(), FloorId{0});
   tracker.add(heard(0.0, {{0, 0.0, {4.0, 5.0}}}, /*known_share_ratio=*/0.9));
-  EXPECT_NE(tracker.state_for(*tracker.belief_at(at_s(0.0))), FixState::kOutside);
+  EXPECT_NE(tracker.state_at(at_s(0.0), *tracker.belief_at(at_s(0.0))), FixState::kOutside);
   tracker.add(heard(2.0, {{0, 0.0, {4.0, 5.0}}}, /*known_share_ratio=*/0.1));
-  EXPECT_EQ(tracker.state_for(*tracker.belief_at(at_s(2.0))), FixState::kOutside);
+  EXPECT_EQ(tracker.state_at(at_s(2.0), *tracker.belief_at(at_s(2.0))), FixState::kOutside);
+}
+
+TEST(FusedTracker, IsOutsideFromAnUnknownScanToTheNextKnownOne) {
+  FusedTracker tracker(three_floor_site(), fused_options(), FloorId{0});
+  for (int i = 0; i < 5; ++i) tracker.add(heard(2.0 * i, {{0, 0.0, {4.0, 5.0}}}));
+  const auto state_at = [&](double time_s) {
+    return tracker.state_at(at_s(time_s), *tracker.belief_at(at_s(time_s)));
+  };
+  EXPECT_NE(state_at(9.0), FixState::kOutside);
+  const auto before = tracker.belief_at(at_s(10.0));
+  tracker.hear_unknown(at_s(10.0));
+  EXPECT_EQ(tracker.belief_at(at_s(10.0)), before);
+  EXPECT_EQ(state_at(10.0), FixState::kOutside);
+  EXPECT_EQ(state_at(300.0), FixState::kOutside);
+  tracker.add(heard(301.0, {{0, 0.0, {4.0, 5.0}}}));
+  EXPECT_NE(state_at(301.0), FixState::kOutside);
+}
+
+TEST(FusedTracker, PassesOverStepsThatEndedByItsStart) {
+  FusedTracker tracker(three_floor_site(), fused_options(), std::nullopt);
+  tracker.start(at_s(10.0), FloorId{0}, {3.0, 4.0}, 2.0);
+  tracker.add(testing::step_of(0.0, 0.5, 0.7, 0.0));
+  tracker.add(testing::step_of(9.5, 10.0, 0.7, 0.0));
+  EXPECT_LT((tracker.belief_at(at_s(10.0))->position_m - Vector2(3.0, 4.0)).norm(), 1e-12);
+  tracker.add(testing::step_of(10.0, 10.5, 0.7, 0.0));
+  EXPECT_LT((tracker.belief_at(at_s(10.5))->position_m - Vector2(3.7, 4.0)).norm(), 1e-12);
 }
 
 TEST(FusedTracker, RejectsOptionsOfAnyPartThatMakeNoSense) {

@@ -10,35 +10,48 @@ namespace {
 using observation::MotionDelta;
 using observation::RadioObservation;
 
-/// The newest scan alone; the floor by the votes of all.
+/// The newest scan alone, doubted more as it ages; the floor by the votes of all.
 class WknnMethod final : public Estimator {
  public:
   WknnMethod(const Model& model, const SessionOptions& options)
       : model_(&model),
+        wknn_(model.matcher(), model.options().wknn),
         known_floor_(options.known_floor),
         floor_filter_(model.options().fused.floor, model.site()->floors().size()) {}
 
   void add(const MotionDelta&) override {}
   void add(const RadioObservation& observation) override {
     floor_filter_.add(observation);
+    newest_scan_ = fusion::HeardScan{observation.delivered, observation.known_share_ratio};
     const core::FloorId floor = known_floor_.value_or(*floor_filter_.most_likely());
     const auto* hypothesis = fusion::find_hypothesis(observation, floor);
     if (hypothesis == nullptr) return;
-    known_share_ratio_ = observation.known_share_ratio;
     const double probability = known_floor_ ? 1.0 : floor_filter_.probabilities()[floor.index];
     belief_ = core::Belief{floor, probability, hypothesis->position_m, hypothesis->covariance_m2};
+    heard_at_ = observation.delivered;
   }
-  std::optional<core::Belief> belief_at(core::DeviceTime) const override { return belief_; }
-  core::FixState state_for(const core::Belief& belief) const override {
-    return fusion::state_of(belief, known_share_ratio_, model_->options().fused.state);
+  void hear_unknown(core::DeviceTime delivered) override {
+    newest_scan_ = fusion::HeardScan{delivered, 0.0};
+  }
+  std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
+    std::optional<core::Belief> belief = belief_;
+    if (belief) {
+      belief->covariance_m2 = wknn_.aged(belief->covariance_m2, core::to_seconds(time - heard_at_));
+    }
+    return belief;
+  }
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const override {
+    return fusion::state_of(belief, time, newest_scan_, model_->options().fused.state);
   }
 
  private:
   const Model* model_;
+  radio::WknnEstimator wknn_;
   std::optional<core::FloorId> known_floor_;
   fusion::FloorFilter floor_filter_;
-  double known_share_ratio_ = 1.0;
-  std::optional<core::Belief> belief_;
+  std::optional<fusion::HeardScan> newest_scan_;
+  std::optional<core::Belief> belief_;  ///< When heard, at `heard_at_`.
+  core::DeviceTime heard_at_;
 };
 
 /// The causal tracker; without scans, from a known start, it is plain dead reckoning.
@@ -56,11 +69,14 @@ class FusedMethod final : public Estimator {
   void add(const RadioObservation& observation) override {
     if (hears_) tracker_.add(observation);
   }
+  void hear_unknown(core::DeviceTime delivered) override {
+    if (hears_) tracker_.hear_unknown(delivered);
+  }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
     return tracker_.belief_at(time);
   }
-  core::FixState state_for(const core::Belief& belief) const override {
-    return tracker_.state_for(belief);
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const override {
+    return tracker_.state_at(time, belief);
   }
 
  private:
@@ -75,11 +91,12 @@ class FixedLagMethod final : public Estimator {
 
   void add(const MotionDelta& motion) override { tracker_.add(motion); }
   void add(const RadioObservation& observation) override { tracker_.add(observation); }
+  void hear_unknown(core::DeviceTime delivered) override { tracker_.hear_unknown(delivered); }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
     return tracker_.belief_at(time);
   }
-  core::FixState state_for(const core::Belief& belief) const override {
-    return tracker_.state_for(belief);
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const override {
+    return tracker_.state_at(time, belief);
   }
 
  private:
@@ -93,11 +110,12 @@ class WholeTrackMethod final : public Estimator {
 
   void add(const MotionDelta& motion) override { smoother_.add(motion); }
   void add(const RadioObservation& observation) override { smoother_.add(observation); }
+  void hear_unknown(core::DeviceTime delivered) override { smoother_.hear_unknown(delivered); }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
     return smoother_.belief_at(time);
   }
-  core::FixState state_for(const core::Belief& belief) const override {
-    return smoother_.state_for(belief);
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const override {
+    return smoother_.state_at(time, belief);
   }
 
  private:

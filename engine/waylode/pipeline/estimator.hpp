@@ -17,8 +17,12 @@ class Estimator {
   virtual ~Estimator() = default;
   virtual void add(const observation::MotionDelta& motion) = 0;
   virtual void add(const observation::RadioObservation& observation) = 0;
+  /// A scan of which the map knows nothing: tells no place, but that the phone is off the map. The
+  /// state is `outside` until a known scan comes; the belief stays.
+  virtual void hear_unknown(core::DeviceTime delivered) = 0;
   virtual std::optional<core::Belief> belief_at(core::DeviceTime time) const = 0;
-  virtual core::FixState state_for(const core::Belief& belief) const = 0;
+  /// What a belief of belief_at(time) deserves.
+  virtual core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const = 0;
 };
 
 /// `method` is registered and `options` suit it.

@@ -42,10 +42,29 @@ TEST(WknnMethod, BelievesTheNewestScanAlone) {
   wknn->add(heard(1.0, {{0, 0.0, {3.0, 4.0}}}));
   wknn->add(step_of(1.0, 1.5, 0.7, 0.0));
   wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}}));
-  const auto belief = wknn->belief_at(at_s(9.0));
+  const auto belief = wknn->belief_at(at_s(4.0));
   ASSERT_TRUE(belief);
   EXPECT_EQ(belief->position_m, Vector2(30.0, 5.0));
   EXPECT_EQ(belief->covariance_m2, (16.0 * core::Matrix2::Identity()).eval());
+}
+
+TEST(WknnMethod, LosesConfidenceAsItsScanAges) {
+  const auto model = tiny_model();
+  const auto wknn = make(*model, "wknn");
+  wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}, {1, -9.0, {30.0, 5.0}}}));
+  const auto sigma_m = [&](double time_s) {
+    const auto belief = wknn->belief_at(at_s(time_s));
+    EXPECT_EQ(belief->position_m, Vector2(30.0, 5.0));
+    return std::sqrt(belief->covariance_m2(0, 0));
+  };
+  EXPECT_NEAR(sigma_m(5.0), 4.0, 1e-12);
+  EXPECT_NEAR(sigma_m(7.5), 5.0, 1e-12);  // 3 m more, by 1.2 m/s in 2.5 s.
+  const auto state_at = [&](double time_s) {
+    return wknn->state_at(at_s(time_s), *wknn->belief_at(at_s(time_s)));
+  };
+  EXPECT_EQ(state_at(4.0), core::FixState::kOk);
+  EXPECT_EQ(state_at(11.0), core::FixState::kLowConfidence);
+  EXPECT_EQ(state_at(60.0), core::FixState::kUnknown);
 }
 
 TEST(WknnMethod, TakesTheFloorByTheVotesOfAllScans) {
@@ -87,6 +106,25 @@ TEST(PdrMethod, AddsStepsToItsStartAndHearsNothing) {
   EXPECT_LT((belief->position_m - Vector2(10.6, 5.8)).norm(), 1e-12);
 }
 
+TEST(PdrMethod, IgnoresMotionThatEndedBeforeItsStart) {
+  const auto model = tiny_model();
+  SessionOptions options = testing::started_at({10.0, 5.0});
+  options.start->time = at_s(10.0);
+  const auto pdr = make(*model, "pdr", options);
+  pdr->add(step_of(8.0, 8.5, 0.8, 0.0));
+  EXPECT_LT((pdr->belief_at(at_s(10.0))->position_m - Vector2(10.0, 5.0)).norm(), 1e-12);
+}
+
+TEST(PdrMethod, NeedsNoScansToBeOk) {
+  const auto model = tiny_model();
+  const auto pdr = make(*model, "pdr", testing::started_at({10.0, 5.0}));
+  pdr->hear_unknown(at_s(1.0));
+  const auto belief = pdr->belief_at(at_s(200.0));
+  // A metre at the start, and the walk that no step tells: sqrt(1 + 0.2^2 * 200) = 3 m.
+  EXPECT_NEAR(std::sqrt(belief->covariance_m2(0, 0)), 3.0, 1e-9);
+  EXPECT_EQ(pdr->state_at(at_s(200.0), *belief), core::FixState::kOk);
+}
+
 TEST(FusedMethod, IsTheFusedTracker) {
   const auto model = tiny_model();
   const auto fused = make(*model, "fused");
@@ -96,7 +134,7 @@ TEST(FusedMethod, IsTheFusedTracker) {
   ASSERT_TRUE(tracker.belief_at(at_s(20.2)));
   EXPECT_EQ(fused->belief_at(at_s(20.2)), tracker.belief_at(at_s(20.2)));
   const core::Belief belief = *tracker.belief_at(at_s(20.2));
-  EXPECT_EQ(fused->state_for(belief), tracker.state_for(belief));
+  EXPECT_EQ(fused->state_at(at_s(20.2), belief), tracker.state_at(at_s(20.2), belief));
 }
 
 TEST(FixedLagMethod, IsTheFixedLagTrackerOfItsLag) {

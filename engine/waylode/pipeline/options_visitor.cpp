@@ -72,7 +72,11 @@ void visit_radio(Options& options, const Visit& visit) {
       .number("few_readings", options.wknn.few_readings, 0.0, kHuge,
               "Trust in a scan of n readings is n / (n + few_readings).")
       .number("floor_few_readings", options.wknn.floor_few_readings, 0.0, kHuge,
-              "The same for its vote on the floor.");
+              "The same for its vote on the floor.")
+      .number("walking_speed_mps", options.wknn.walking_speed_mps, 0.0, 100.0,
+              "An ageing match's error grows this fast per axis; 0 lets it stay.")
+      .number("fresh_for_s", options.wknn.fresh_for_s, 0.0, kHuge,
+              "A match this young has not aged.");
 }
 
 void visit_heading(pdr::HeadingFilter::Options& heading, const Visit& visit) {
@@ -166,7 +170,11 @@ void visit_fused(Options& options, const Visit& visit) {
       .number("floor_probability", options.fused.state.floor_probability, 0.0, 1.0,
               "With less, a fix is `low_confidence` at best.")
       .number("known_share_ratio", options.fused.state.known_share_ratio, 0.0, 1.0,
-              "With less of the signal known to the map, a fix is `outside`.");
+              "With less of the signal known to the map, a fix is `outside`.")
+      .number("stale_after_s", options.fused.state.stale_after_s, kAboveZero, kHuge,
+              "With no scan this near in time, a fix is `low_confidence` at best.")
+      .number("lost_after_s", options.fused.state.lost_after_s, kAboveZero, kHuge,
+              "With no scan this near in time, a fix is `unknown`; not less than stale_after_s.");
   Table("smoothing", visit)
       .number("rounds", options.smoothing_rounds, 1, 50,
               "Passes over the track; scans are weighed again in each.");

@@ -38,7 +38,10 @@ struct Session::Pipeline {
 
   void hear(const radio::Query& query) {
     const auto observation = wknn.estimate(query, options.known_floor);
-    if (!observation) return;
+    if (!observation) {
+      if (wknn.is_foreign(query)) estimator->hear_unknown(query.delivered);
+      return;
+    }
     estimator->add(*observation);
     last_scan = query.delivered;
   }
@@ -96,7 +99,7 @@ core::Fix Session::fix_at(core::DeviceTime time) const {
   core::Fix fix;
   fix.time = time;
   fix.belief = pipeline_->estimator->belief_at(time);
-  if (fix.belief) fix.state = pipeline_->estimator->state_for(*fix.belief);
+  if (fix.belief) fix.state = pipeline_->estimator->state_at(time, *fix.belief);
   fix.provenance = {std::string(pipeline_->method.name), pipeline_->model->site()->version(),
                     pipeline_->last_scan};
   return fix;

@@ -52,6 +52,15 @@ std::vector<Sample> altered_after(std::vector<Sample> samples, core::DeviceTime 
   return samples;
 }
 
+sample::WifiScan foreign_scan(double time_s, std::size_t count) {
+  sample::WifiScan scan;
+  scan.time = at_s(time_s);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    scan.readings.push_back({core::TransmitterId::wifi(0xABC0 + i), -60.0F, 2412, scan.time, ""});
+  }
+  return scan;
+}
+
 TEST(Model, NeedsARadioMap) {
   const auto site = std::make_shared<const site::Site>(testing::tiny_floors());
   const auto model = Model::create(site, testing::tiny_options());
@@ -100,14 +109,28 @@ TEST(Session, NeverMakesUpAPositionWithoutWifi) {
 }
 
 TEST(Session, NeverMakesUpAPositionFromTransmittersItDoesNotKnow) {
-  sample::WifiScan scan;
-  scan.time = at_s(1.0);
-  for (std::uint64_t i = 0; i < 10; ++i) {
-    scan.readings.push_back({core::TransmitterId::wifi(0xABC0 + i), -60.0F, 2412, scan.time, ""});
-  }
   for (const Method& method : methods()) {
     if (method.kind == MethodKind::kPdr) continue;
-    EXPECT_EQ(replayed(method, {scan}, {at_s(1.0)}).front().belief, std::nullopt) << method.name;
+    EXPECT_EQ(replayed(method, {foreign_scan(1.0, 10)}, {at_s(1.0)}).front().belief, std::nullopt)
+        << method.name;
+  }
+}
+
+TEST(Session, IsOutsideOnceNothingHeardIsKnown) {
+  for (const Method& method : methods()) {
+    if (method.kind == MethodKind::kPdr) continue;
+    Session session = session_of(method, FloorId{0});
+    for (int i = 0; i < 10; ++i) session.push(scan_at(2.0 * i, FloorId{0}, {14.0, 6.0}));
+    EXPECT_NE(session.fix_at(at_s(18.0)).state, core::FixState::kOutside) << method.name;
+    session.push(foreign_scan(20.0, 2));  // Too few to say anything.
+    EXPECT_NE(session.fix_at(at_s(20.0)).state, core::FixState::kOutside) << method.name;
+    session.push(foreign_scan(22.0, 3));
+    const core::Fix fix = session.fix_at(at_s(22.0));
+    EXPECT_EQ(fix.state, core::FixState::kOutside) << method.name;
+    EXPECT_TRUE(fix.belief) << method.name;
+    EXPECT_EQ(fix.provenance.last_scan, at_s(18.0)) << method.name;
+    session.push(scan_at(24.0, FloorId{0}, {14.0, 6.0}));
+    EXPECT_NE(session.fix_at(at_s(24.0)).state, core::FixState::kOutside) << method.name;
   }
 }
 

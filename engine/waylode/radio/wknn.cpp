@@ -97,6 +97,9 @@ core::Result<void> WknnEstimator::Options::validate() const {
         floor_few_readings >= 0.0)) {
     return refuse("base_sigma_m must be positive, spread_gain and few_readings not negative");
   }
+  if (!(walking_speed_mps >= 0.0 && fresh_for_s >= 0.0)) {
+    return refuse("walking_speed_mps and fresh_for_s must not be negative");
+  }
   return {};
 }
 
@@ -121,6 +124,20 @@ std::optional<observation::RadioObservation> WknnEstimator::estimate(
   }
   std::ranges::stable_sort(result.floors, std::ranges::greater{}, &FloorHypothesis::log_likelihood);
   return result;
+}
+
+bool WknnEstimator::is_foreign(const Query& query) const {
+  std::size_t fixed = 0;
+  for (const QueryReading& reading : query.readings) {
+    if (!matcher_->map().postings_of(reading.transmitter).empty()) return false;
+    if (reading.transmitter.kind() != core::TransmitterId::Kind::kBluetooth) ++fixed;
+  }
+  return fixed > 0 && fixed >= options_.min_readings;
+}
+
+core::Matrix2 WknnEstimator::aged(const core::Matrix2& covariance_m2, double age_s) const {
+  const double walked_m = options_.walking_speed_mps * std::max(0.0, age_s - options_.fresh_for_s);
+  return covariance_m2 + walked_m * walked_m * core::Matrix2::Identity();
 }
 
 }  // namespace waylode::radio

@@ -26,6 +26,9 @@ class WknnEstimator {
     /// Trust in a scan of n readings is n / (n + few_readings).
     double few_readings = 20.0;
     double floor_few_readings = 5.0;  ///< The same for its vote on the floor.
+    /// A match ages as its bearer may have walked on: see aged().
+    double walking_speed_mps = 1.2;  ///< Brisk for indoors, so that the doubt covers most people.
+    double fresh_for_s = 3.0;        ///< No ageing sooner: about a scan's own duration.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
@@ -38,6 +41,15 @@ class WknnEstimator {
   /// nullopt when the scan has too few readings or shares none with the map.
   std::optional<observation::RadioObservation> estimate(
       const Query& query, std::optional<core::FloorId> known_floor = std::nullopt) const;
+
+  /// Whether a scan shows that the phone is off the map: at least min_readings of Wi-Fi (or table
+  /// columns), and the map knows none of the scan. Bluetooth alone never does, since people carry
+  /// most of it about.
+  bool is_foreign(const Query& query) const;
+
+  /// The covariance of a match `age_s` after its scan: (walking_speed_mps (age_s - fresh_for_s))^2
+  /// more per axis.
+  core::Matrix2 aged(const core::Matrix2& covariance_m2, double age_s) const;
 
  private:
   const Matcher* matcher_;

@@ -212,5 +212,20 @@ TEST(WknnEstimator, RefusesOptionsOutOfRange) {
   for (const double gain : {-0.1, kNan}) EXPECT_FALSE(Options{.spread_gain = gain}.validate());
 }
 
+TEST(WknnEstimator, CallsAScanForeignWhenTheMapKnowsNoneOfItsWifi) {
+  const auto storage = map_of({{0, {0.0, 0.0}, {-50.0F, -60.0F}}});
+  const auto matcher = Matcher::create(storage.view(), kPlainMatcher);
+  const WknnEstimator estimator(*matcher, kOptions);
+  EXPECT_TRUE(estimator.is_foreign(query_of({0.0F, 0.0F, -50.0F, -50.0F})));
+  EXPECT_FALSE(estimator.is_foreign(query_of({0.0F, 0.0F, -50.0F})));            // Too few.
+  EXPECT_FALSE(estimator.is_foreign(query_of({-90.0F, 0.0F, -50.0F, -50.0F})));  // One is known.
+  EXPECT_FALSE(estimator.is_foreign(query_of({})));
+  Query bluetooth = query_of({});
+  for (std::uint64_t i = 0; i < 9; ++i) {
+    bluetooth.readings.push_back({TransmitterId::bluetooth(i), -50.0F, 0.0F});
+  }
+  EXPECT_FALSE(estimator.is_foreign(bluetooth));
+}
+
 }  // namespace
 }  // namespace waylode::radio

@@ -3,6 +3,7 @@
 #include "waylode/smoothing/smoothed_tracker.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "waylode/smoothing/rts_smoother.hpp"
@@ -75,9 +76,14 @@ TrackSmoother::TrackSmoother(std::shared_ptr<const site::Site> site, const Optio
     : site_(std::move(site)), options_(options), known_floor_(known_floor) {}
 
 void TrackSmoother::add(Event event) {
+  if (const auto* scan = std::get_if<RadioObservation>(&event)) {
+    scans_.push_back({scan->delivered, scan->known_share_ratio});
+  }
   events_.push_back(std::move(event));
   solution_.reset();
 }
+
+void TrackSmoother::hear_unknown(core::DeviceTime delivered) { scans_.push_back({delivered, 0.0}); }
 
 std::optional<core::Belief> TrackSmoother::belief_at(core::DeviceTime time) const {
   const Solution& track = solution();
@@ -88,14 +94,8 @@ std::optional<core::Belief> TrackSmoother::belief_at(core::DeviceTime time) cons
                                 interpolate(track.nodes, time));
 }
 
-core::FixState TrackSmoother::state_for(const core::Belief& belief) const {
-  double known_share_ratio = 1.0;
-  for (const Event& event : events_) {
-    if (const auto* scan = std::get_if<RadioObservation>(&event)) {
-      known_share_ratio = scan->known_share_ratio;
-    }
-  }
-  return fusion::state_of(belief, known_share_ratio, options_.fused.state);
+core::FixState TrackSmoother::state_at(core::DeviceTime time, const core::Belief& belief) const {
+  return fusion::state_of(belief, time, fusion::nearest_scan(scans_, time), options_.fused.state);
 }
 
 const TrackSmoother::Solution& TrackSmoother::solution() const {
@@ -172,12 +172,29 @@ FixedLagTracker::FixedLagTracker(std::shared_ptr<const site::Site> site,
                                  std::optional<core::FloorId> known_floor, core::Duration lag)
     : site_(site),
       tracker_(std::move(site), options, known_floor, /*keep_history=*/true),
-      lag_(lag) {}
+      lag_(lag),
+      rules_(options.state) {}
 
 void FixedLagTracker::add(const Event& event) {
   std::visit([this](const auto& value) { tracker_.add(value); }, event);
+  if (const auto* scan = std::get_if<RadioObservation>(&event)) {
+    keep({scan->delivered, scan->known_share_ratio});
+  }
   constexpr core::Duration kMargin = std::chrono::seconds(5);
   tracker_.planar().forget_before(tracker_.planar().state().time - lag_ - kMargin);
+}
+
+void FixedLagTracker::hear_unknown(core::DeviceTime delivered) { keep({delivered, 0.0}); }
+
+void FixedLagTracker::keep(const fusion::HeardScan& scan) {
+  const auto needed =
+      std::ranges::lower_bound(scans_, scan.delivered - lag_, {}, &fusion::HeardScan::delivered);
+  if (needed != scans_.begin()) scans_.erase(scans_.begin(), std::prev(needed));
+  scans_.push_back(scan);
+}
+
+core::FixState FixedLagTracker::state_at(core::DeviceTime time, const core::Belief& belief) const {
+  return fusion::state_of(belief, time, fusion::nearest_scan(scans_, time), rules_);
 }
 
 std::optional<core::Belief> FixedLagTracker::belief_at(core::DeviceTime time) const {

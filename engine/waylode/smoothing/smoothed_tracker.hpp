@@ -31,9 +31,12 @@ class TrackSmoother {
                 std::optional<core::FloorId> known_floor);
 
   void add(Event event);
+  /// A scan that the map knows nothing of: around its time, the state is `outside`.
+  void hear_unknown(core::DeviceTime delivered);
   /// Uses everything added so far. nullopt when no scan has told of a place.
   std::optional<core::Belief> belief_at(core::DeviceTime time) const;
-  core::FixState state_for(const core::Belief& belief) const;
+  /// For a belief of belief_at(time), by the scan nearest in time.
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
 
  private:
   struct FloorAt {
@@ -54,6 +57,7 @@ class TrackSmoother {
   Options options_;
   std::optional<core::FloorId> known_floor_;
   std::vector<Event> events_;
+  std::vector<fusion::HeardScan> scans_;
   mutable std::optional<Solution> solution_;  ///< Cache; emptied by add().
 };
 
@@ -65,14 +69,21 @@ class FixedLagTracker {
                   std::optional<core::FloorId> known_floor, core::Duration lag);
 
   void add(const Event& event);
+  /// As of the whole track.
+  void hear_unknown(core::DeviceTime delivered);
   /// `time` not before the newest event less the lag.
   std::optional<core::Belief> belief_at(core::DeviceTime time) const;
-  core::FixState state_for(const core::Belief& belief) const { return tracker_.state_for(belief); }
+  /// For a belief of belief_at(time), by the scan nearest in time.
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
 
  private:
+  void keep(const fusion::HeardScan& scan);
+
   std::shared_ptr<const site::Site> site_;
   fusion::FusedTracker tracker_;
   core::Duration lag_;
+  fusion::StateRules rules_;
+  std::vector<fusion::HeardScan> scans_;  ///< As far back as the lag reaches, and one before.
 };
 
 }  // namespace waylode::smoothing

@@ -237,9 +237,47 @@ TEST(TrackSmoother, JudgesTheStateByItsRules) {
   smoother.add(heard(0.0, {{0, 0.0, {1.0, 1.0}}}, /*known_share_ratio=*/0.9));
   core::Belief belief = *smoother.belief_at(at_s(0.0));
   belief.covariance_m2 = core::Matrix2::Identity();
-  EXPECT_EQ(smoother.state_for(belief), core::FixState::kOk);
+  EXPECT_EQ(smoother.state_at(at_s(0.0), belief), core::FixState::kOk);
   belief.covariance_m2 *= 10'000.0;
-  EXPECT_EQ(smoother.state_for(belief), core::FixState::kUnknown);
+  EXPECT_EQ(smoother.state_at(at_s(0.0), belief), core::FixState::kUnknown);
+}
+
+/// Indoors till 20 s, then a scan every two seconds that the map does not know.
+template <typename Tracker>
+void leave_after_20_s(Tracker& tracker) {
+  for (int i = 0; i <= 10; ++i) tracker.add(heard(2.0 * i, {{0, 0.0, {1.0, 1.0}}}));
+  for (int i = 11; i <= 15; ++i) tracker.hear_unknown(at_s(2.0 * i));
+}
+
+TEST(TrackSmoother, JudgesEachInstantByTheScanNearestInTime) {
+  TrackSmoother smoother(three_floor_site(), smoother_options(), FloorId{0});
+  leave_after_20_s(smoother);
+  const core::Belief belief = *smoother.belief_at(at_s(10.0));
+  for (const double time_s : {0.0, 10.0, 20.9}) {
+    EXPECT_NE(smoother.state_at(at_s(time_s), belief), core::FixState::kOutside) << time_s;
+  }
+  for (const double time_s : {21.1, 30.0}) {
+    EXPECT_EQ(smoother.state_at(at_s(time_s), belief), core::FixState::kOutside) << time_s;
+  }
+}
+
+TEST(TrackSmoother, JudgesByTheShareKnownOfTheNearestScan) {
+  TrackSmoother smoother(three_floor_site(), smoother_options(), FloorId{0});
+  smoother.add(heard(0.0, {{0, 0.0, {1.0, 1.0}}}, /*known_share_ratio=*/0.1));
+  for (int i = 1; i < 6; ++i) smoother.add(heard(4.0 * i, {{0, 0.0, {1.0, 1.0}}}));
+  const core::Belief belief = *smoother.belief_at(at_s(0.0));
+  EXPECT_EQ(smoother.state_at(at_s(1.0), belief), core::FixState::kOutside);
+  EXPECT_NE(smoother.state_at(at_s(3.0), belief), core::FixState::kOutside);
+}
+
+TEST(FixedLagTracker, JudgesEachInstantByTheScanNearestInTime) {
+  FixedLagTracker tracker(three_floor_site(), fused_options(), FloorId{0},
+                          std::chrono::seconds(10));
+  leave_after_20_s(tracker);
+  const core::Belief belief = *tracker.belief_at(at_s(20.0));
+  EXPECT_NE(tracker.state_at(at_s(20.0), belief), core::FixState::kOutside);
+  EXPECT_EQ(tracker.state_at(at_s(21.5), belief), core::FixState::kOutside);
+  EXPECT_EQ(tracker.state_at(at_s(30.0), belief), core::FixState::kOutside);
 }
 
 TEST(TrackSmoother, RejectsRoundsOutOfRange) {

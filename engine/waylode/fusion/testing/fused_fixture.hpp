@@ -19,7 +19,7 @@ inline std::shared_ptr<const site::Site> three_floor_site() {
   parts.name = "house";
   parts.floors.resize(3);
   for (std::size_t i = 0; i < 3; ++i) {
-    parts.floors[i].name = "F" + std::to_string(i + 1);
+    parts.floors[i].name = std::string("F").append(std::to_string(i + 1));
     parts.floors[i].level = static_cast<int>(i);
     parts.floors[i].bounds.max_m = {60.0, 40.0};
   }
