@@ -26,7 +26,9 @@ constexpr WknnEstimator::Options kOptions{.neighbours = 4,
                                           .weight_exponent = 2.0,
                                           .base_sigma_m = 2.0,
                                           .spread_gain = 0.5,
-                                          .min_readings = 2};
+                                          .min_readings = 2,
+                                          .few_readings = 0.0,
+                                          .floor_few_readings = 0.0};
 
 /// What transmitters 1, 2, ... were heard with; 0 for not heard.
 struct Surveyed {
@@ -125,15 +127,15 @@ TEST(WknnEstimator, TakesNoMoreThanKNeighbours) {
 }
 
 TEST(WknnEstimator, LetsTheNearestVoteForTheFloor) {
-  // Floor 1 is nearer: weights 0.8 against 0.2.
+  // Floor 1 is nearer: weights 0.8 against 0.2; a tenth of the vote is doubt, shared by the floors.
   const std::vector<Surveyed> survey = {{0, {10.0, 1.0}, {-20.0F, -80.0F}},
                                         {1, {0.0, 1.0}, {-50.0F, -80.0F}}};
   const auto seen = estimate(survey, query_of({-40.0F, -80.0F}));
   ASSERT_TRUE(seen);
   ASSERT_EQ(seen->floors.size(), 2U);
   EXPECT_EQ(seen->floors[0].floor, FloorId{1});
-  EXPECT_NEAR(std::exp(seen->floors[0].log_likelihood), 0.8, 0.03);
-  EXPECT_NEAR(std::exp(seen->floors[1].log_likelihood), 0.2, 0.03);
+  EXPECT_NEAR(std::exp(seen->floors[0].log_likelihood), 0.9 * 0.8 + 0.05, 1e-6);
+  EXPECT_NEAR(std::exp(seen->floors[1].log_likelihood), 0.9 * 0.2 + 0.05, 1e-6);
 }
 
 TEST(WknnEstimator, NeverRulesAFloorOut) {
@@ -144,9 +146,27 @@ TEST(WknnEstimator, NeverRulesAFloorOut) {
   const auto seen = estimate(survey, query_of({-40.0F, -80.0F}), options);
   ASSERT_TRUE(seen);
   ASSERT_EQ(seen->floors.size(), 2U);
-  EXPECT_NEAR(seen->floors[0].log_likelihood, 0.0, 1e-9);
-  EXPECT_TRUE(std::isfinite(seen->floors[1].log_likelihood));
-  EXPECT_LT(std::exp(seen->floors[1].log_likelihood), 0.05);
+  EXPECT_NEAR(std::exp(seen->floors[0].log_likelihood), 0.95, 1e-9);
+  EXPECT_NEAR(std::exp(seen->floors[1].log_likelihood), 0.05, 1e-9);
+}
+
+TEST(WknnEstimator, TrustsAScanByHowMuchItHeard) {
+  // Two readings: trust 2 / (2 + 2) in the place, 2 / (2 + 6) in the floor.
+  WknnEstimator::Options options = kOptions;
+  options.few_readings = 2.0;
+  options.floor_few_readings = 6.0;
+  const std::vector<Surveyed> survey = {{0, {10.0, 1.0}, {-20.0F, -80.0F}},
+                                        {1, {0.0, 1.0}, {-50.0F, -80.0F}}};
+  const auto plain = estimate(survey, query_of({-40.0F, -80.0F}), kOptions);
+  const auto wary = estimate(survey, query_of({-40.0F, -80.0F}), options);
+  ASSERT_TRUE(plain);
+  ASSERT_TRUE(wary);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(wary->floors[i].position_m, plain->floors[i].position_m);
+    EXPECT_TRUE(
+        wary->floors[i].covariance_m2.isApprox(2.0 * plain->floors[i].covariance_m2, 1e-12));
+    EXPECT_NEAR(wary->floors[i].log_likelihood, 0.25 * plain->floors[i].log_likelihood, 1e-12);
+  }
 }
 
 TEST(WknnEstimator, StaysOnAKnownFloor) {
