@@ -29,7 +29,7 @@ class LabelledPath {
     double shortest_shaped_m = 1.5;  ///< Marks closer than this do not tell a direction.
     double fastest_mps = 2.5;        ///< A stretch walked faster is mislabelled: no label within.
     double longest_gap_s = 120.0;    ///< A longer stretch between marks gives no label.
-    double mark_sigma_m = 0.7;       ///< Per axis; measured in docs/accuracy.md.
+    double mark_sigma_m = 0.7;       ///< Per axis; see docs/accuracy.md.
     double drift_sigma_ratio = 0.08;  ///< Of the distance to the nearer mark.
 
     core::Result<void> validate() const;
