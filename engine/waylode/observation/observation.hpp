@@ -11,6 +11,14 @@
 /// What the estimators tell fusion. Plain values; fusion sees nothing else.
 namespace waylode::observation {
 
+/// What the length of a step follows from, kept so that the length law can be corrected on line.
+struct StrideFeatures {
+  double swing_root = 0.0;         ///< (Largest less smallest acceleration)^(1/4), (m/s2)^(1/4).
+  double mean_abs_time_mps = 0.0;  ///< Mean |linear acceleration| times duration.
+
+  bool operator==(const StrideFeatures&) const = default;
+};
+
 /// One step (or a stretch of standing, length 0). Headings are counter-clockwise from true east as
 /// far as the phone knows: a constant offset (how it is held, declination, plan rotation) remains.
 struct MotionDelta {
@@ -20,6 +28,7 @@ struct MotionDelta {
   double heading_rad = 0.0;
   double length_sigma_m = 0.0;     ///< Random part only; a constant scale error remains.
   double heading_sigma_rad = 0.0;  ///< Random part only, drift since the previous delta included.
+  StrideFeatures stride;           ///< Zero where no step was measured.
 
   bool operator==(const MotionDelta&) const = default;
 };
@@ -51,6 +60,17 @@ struct RadioObservation {
   std::vector<FloorHypothesis> floors;
 
   bool operator==(const RadioObservation&) const = default;
+};
+
+/// Where the magnetic field of the last seconds fits the magnetic map best.
+struct MagneticObservation {
+  core::DeviceTime time;  ///< Of the newest field that was matched.
+  core::FloorId floor;
+  core::Vector2 position_m = core::Vector2::Zero();         ///< Floor frame, at `time`.
+  core::Matrix2 covariance_m2 = core::Matrix2::Identity();  ///< Floor frame; error of position_m.
+  double mean_square_difference_ut2 = 0.0;                  ///< Of the best fit.
+
+  bool operator==(const MagneticObservation&) const = default;
 };
 
 }  // namespace waylode::observation
