@@ -28,7 +28,7 @@ struct MotionDelta {
   double heading_rad = 0.0;
   double length_sigma_m = 0.0;     ///< Random part only; a constant scale error remains.
   double heading_sigma_rad = 0.0;  ///< Random part only, drift since the previous delta included.
-  StrideFeatures stride;           ///< Zero where no step was measured.
+  StrideFeatures stride{};         ///< Zero where no step was measured.
 
   bool operator==(const MotionDelta&) const = default;
 };
