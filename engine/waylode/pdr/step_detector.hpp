@@ -6,16 +6,9 @@
 
 #include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/pdr/step_source.hpp"
 
 namespace waylode::pdr {
-
-/// One footfall.
-struct Step {
-  core::DeviceTime time;       ///< Of the acceleration's peak.
-  double swing_mps2 = 0.0;     ///< Largest less smallest vertical acceleration within the step.
-  double mean_abs_mps2 = 0.0;  ///< Mean |linear vertical acceleration| within the step.
-  double interval_s = 0.0;     ///< Since the previous step, capped at `longest_interval_s`.
-};
 
 /// Finds footfalls in the vertical acceleration as it streams, with no look ahead: a peak is a step
 /// once the signal has fallen back through zero. The threshold follows the walker's own peaks.
