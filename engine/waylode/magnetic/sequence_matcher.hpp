@@ -36,8 +36,8 @@ class SequenceMatcher {
     double search_sigmas = 3.0;  ///< Of the prior: how far around it is searched ...
     double narrowest_search_m = 1.5;  ///< ... no less than this ...
     double widest_search_m = 8.0;     ///< ... and no more. Cost goes with the square.
-    double largest_turn_rad = 0.0;    ///< The path is tried turned by up to this; 0: as it is.
-    double turn_step_rad = 0.05;
+    double largest_turn_rad = 0.2;    ///< The path is tried turned by up to this; 0: as it is.
+    double turn_step_rad = 0.1;
     /// The phone's own constant part of the field, per part: 0 trusts the phone (the literal
     /// equation), large takes the mean difference away entirely. See docs of the module.
     double bias_sigma_ut = 10.0;
