@@ -8,19 +8,17 @@
 #include <utility>
 
 #include "waylode/eval/detail/error_charts.hpp"
-#include "waylode/eval/detail/html.hpp"
 #include "waylode/eval/detail/report_data.hpp"
 #include "waylode/eval/detail/report_style.hpp"
 #include "waylode/eval/detail/report_table.hpp"
-#include "waylode/eval/detail/svg_chart.hpp"
 #include "waylode/eval/detail/svg_plan.hpp"
+#include "waylode/eval/html.hpp"
 #include "waylode/eval/report.hpp"
+#include "waylode/eval/svg_chart.hpp"
 
 namespace waylode::eval {
 namespace {
 
-using detail::escape_html;
-using detail::html_number;
 using detail::MethodErrors;
 
 /// The row of the group "all" with the least mean error; nullptr when nothing was scored.
@@ -80,7 +78,7 @@ std::string legend(const std::vector<MethodErrors>& methods) {
     html += fmt::format(
         "<label class=\"{}\"><input type=\"checkbox\" checked=\"checked\" disabled=\"disabled\" "
         "data-toggle=\"{}\"/><span><span class=\"swatch\"></span>{}</span></label>",
-        detail::method_classes(m), m, escape_html(methods[m].name));
+        method_classes(m), m, escape_html(methods[m].name));
   }
   return html + "</nav>\n";
 }
