@@ -14,6 +14,7 @@
 #include "waylode/eval/detail/svg_plan.hpp"
 #include "waylode/eval/html.hpp"
 #include "waylode/eval/report.hpp"
+#include "waylode/eval/report_page.hpp"
 #include "waylode/eval/svg_chart.hpp"
 
 namespace waylode::eval {
@@ -160,21 +161,27 @@ std::string drawings(const ReportOptions& options, std::span<const EvaluatedTrac
 
 }  // namespace
 
-std::string to_html(const ReportOptions& options, std::span<const EvaluatedTrack> tracks,
-                    std::span<const ResultRow> rows) {
-  const std::vector<MethodErrors> methods = detail::errors_by_method(tracks);
+std::string report_page(std::string_view title, std::string_view body) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
-      escape_html(options.title) + "</title><style>";
+      escape_html(title) + "</title><style>";
   html += detail::report_style();
-  html += "</style></head><body><main>\n" + header(options) + headline(tracks, rows);
-  html += tables(rows, methods) + legend(methods) + "<h2>Errors</h2>\n" + charts(methods);
-  const std::string groups = detail::group_table(rows, methods);
-  if (!groups.empty()) html += "<h2>By site and floor</h2>\n" + groups;
-  html += drawings(options, tracks, methods) + "</main><script>";
+  html += "</style></head><body><main>\n";
+  html += body;
+  html += "</main><script>";
   html += detail::report_script();
   return html + "</script></body></html>\n";
+}
+
+std::string to_html(const ReportOptions& options, std::span<const EvaluatedTrack> tracks,
+                    std::span<const ResultRow> rows) {
+  const std::vector<MethodErrors> methods = detail::errors_by_method(tracks);
+  std::string body = header(options) + headline(tracks, rows);
+  body += tables(rows, methods) + legend(methods) + "<h2>Errors</h2>\n" + charts(methods);
+  const std::string groups = detail::group_table(rows, methods);
+  if (!groups.empty()) body += "<h2>By site and floor</h2>\n" + groups;
+  return report_page(options.title, body + drawings(options, tracks, methods));
 }
 
 }  // namespace waylode::eval
