@@ -46,7 +46,7 @@ class ConstantVelocityFilter {
   const Covariance& covariance() const { return covariance_; }
 
  private:
-  void let_time_pass(core::DeviceTime time);
+  void accept(core::DeviceTime time, const State& mean, const Covariance& covariance);
 
   Options options_;
   bool started_ = false;

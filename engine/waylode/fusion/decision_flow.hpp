@@ -45,7 +45,7 @@ class DecisionFlow {
   explicit DecisionFlow(const Options& options);
 
   void start(const PlanarEstimate& place);
-  bool started() const { return started_; }
+  bool started() const { return filter_.started(); }
   /// False, and nothing changes: not sound, before the last event, or nothing started.
   bool add(const observation::MotionDelta& motion);
   /// Begins where nothing has. nullopt, and nothing changes: see StepPositionFilter.
@@ -59,8 +59,8 @@ class DecisionFlow {
   Comparison compare_literally(const PlanarMeasurement& fix);
 
   Options options_;
-  bool started_ = false;
   StepPositionFilter filter_;
+  core::DeviceTime last_fix_;
   // Of kWuLiteral.
   PlanarEstimate walked_;
   PathMemory path_;

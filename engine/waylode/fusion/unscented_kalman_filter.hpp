@@ -81,8 +81,12 @@ class UnscentedKalmanFilter {
     const Eigen::Matrix<double, kStates, kRows> gain =
         innovation_covariance.ldlt().solve(expected.cross_covariance.transpose()).transpose();
     const State mean = mean_ + gain * innovation;
-    const Covariance covariance =
+    Covariance covariance =
         symmetrised<kStates>(covariance_ - gain * innovation_covariance * gain.transpose());
+    // Rounding can leave a hair below zero where the measurement is far sharper than the state.
+    if (covariance.llt().info() != Eigen::Success) {
+      covariance.diagonal() += kRounding * covariance_.diagonal();
+    }
     if (!is_usable(mean, covariance)) return std::nullopt;
     mean_ = mean;
     covariance_ = covariance;
@@ -90,6 +94,8 @@ class UnscentedKalmanFilter {
   }
 
  private:
+  static constexpr double kRounding = 1e-12;
+
   /// A Gaussian through a function.
   template <int kRows>
   struct Transformed {
