@@ -24,8 +24,8 @@ std::vector<observation::MotionDelta> steps_of(const SurveyedRecording& recordin
 }  // namespace
 
 core::Result<void> MapBuilder::Options::validate() const {
-  for (const core::Result<void>& part :
-       {scan.validate(), pdr.validate(), labels.validate(), moving.validate()}) {
+  for (const core::Result<void>& part : {scan.validate(), pdr.validate(), labels.validate(),
+                                         moving.validate(), magnetic.validate()}) {
     if (!part) return part;
   }
   return {};
@@ -37,6 +37,7 @@ MapBuilder::MapBuilder(site::SiteParts parts, const Options& options)
           site::SiteParts{parts_.name, parts_.origin, parts_.floors, {}})),
       options_(options),
       moving_(options.moving),
+      magnetic_(options.magnetic),
       stretches_(parts_.floors.size()),
       recordings_on_floor_(parts_.floors.size()) {}
 
@@ -51,6 +52,7 @@ void MapBuilder::add(const SurveyedRecording& recording) {
   drop_readings_before(own.samples, waypoints.front().time);
   const LabelledPath path(options_.labels, waypoints, steps_of(own, options_.pdr));
   note_stretches(path);
+  magnetic_.add(own.samples, path);
 
   const std::size_t instances_before = instances_.size();
   std::set<std::pair<core::TransmitterId, core::DeviceTime>> heard;
@@ -163,6 +165,7 @@ core::Result<SurveyedSite> MapBuilder::build() {
                           "); survey with Wi-Fi on and mark at least two places per walk",
                       parts_.name);
   }
+  result.parts.magnetic_map = magnetic_.build();
   learn_headings();
   result.parts.floors = parts_.floors;
   result.quality.floors = floor_quality(result.parts, stretches_, recordings_on_floor_);

@@ -15,6 +15,7 @@
 #include "waylode/sample/sample.hpp"
 #include "waylode/site/site.hpp"
 #include "waylode/survey/labelled_path.hpp"
+#include "waylode/survey/magnetic_survey.hpp"
 #include "waylode/survey/moving_transmitters.hpp"
 #include "waylode/survey/surveyed_recording.hpp"
 
@@ -51,8 +52,8 @@ struct SurveyedSite {
   QualityReport quality;
 };
 
-/// Surveyed walks in, radio map out. Scans become instances at the places where their signals were
-/// heard; floors learn how far the phone's compass is off their plan.
+/// Surveyed walks in, radio map and magnetic map out. Scans become instances at the places where
+/// their signals were heard; floors learn how far the phone's compass is off their plan.
 class MapBuilder {
  public:
   struct Options {
@@ -60,12 +61,13 @@ class MapBuilder {
     pdr::DeadReckoning::Options pdr;
     LabelledPath::Options labels;
     MovingTransmitterFilter::Options moving;
+    MagneticSurvey::Options magnetic{};
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
   };
 
-  /// `parts`: floors and frames; its radio map is ignored. `options` must be valid.
+  /// `parts`: floors and frames; their maps are ignored. `options` must be valid.
   MapBuilder(site::SiteParts parts, const Options& options);
 
   void add(const SurveyedRecording& recording);
@@ -91,6 +93,7 @@ class MapBuilder {
   Options options_;
   QualityReport quality_;
   MovingTransmitterFilter moving_;
+  MagneticSurvey magnetic_;
   std::vector<Instance> instances_;
   std::vector<std::vector<LabelledPath::Stretch>> stretches_;  ///< Per floor.
   std::vector<std::set<std::uint32_t>> recordings_on_floor_;
