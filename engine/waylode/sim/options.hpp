@@ -8,6 +8,9 @@
 
 namespace waylode::sim {
 
+/// Height above the floor at which a phone in the hand measures the magnetic field.
+inline constexpr double kHandHeight_m = 1.2;
+
 /// How somebody walks. Absent values are drawn from the walker's name.
 struct GaitOptions {
   double height_m = 1.72;           ///< Of the person, 1.2 to 2.2.
@@ -47,6 +50,7 @@ struct PhoneOptions {
   double gyroscope_noise_degps = 0.3;
   double magnetometer_bias_sigma_ut = 1.5;  ///< What the phone's calibration leaves.
   double magnetometer_noise_ut = 0.5;
+  bool has_attitude = true;               ///< Reports its own attitude.
   double attitude_drift_sigma_deg = 3.0;  ///< Slow yaw error of the phone's own attitude.
   double attitude_magnetic_ratio = 0.3;   ///< Share of a field disturbance that turns it, 0 to 1.
   double sway_deg = 3.0;                  ///< Of the body with every stride.

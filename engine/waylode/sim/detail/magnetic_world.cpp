@@ -31,12 +31,11 @@ double dipole_count(const MagneticOptions& options, const Vector2& size_m) {
 
 /// Height above the floor of one dipole.
 double draw_dipole_height_m(const MagneticOptions& options, core::Rng& rng) {
-  constexpr double kPhoneHeight_m = 1.2;
   const bool is_below = rng.below(2) == 0;
   if (!options.dipole_nearest_m) return is_below ? rng.uniform(-0.4, 0.0) : rng.uniform(2.5, 3.0);
   const double nearest_m = *options.dipole_nearest_m;
   const double away_m = rng.uniform(nearest_m, options.dipole_farthest_m.value_or(nearest_m));
-  return is_below ? kPhoneHeight_m - away_m : kPhoneHeight_m + away_m;
+  return is_below ? kHandHeight_m - away_m : kHandHeight_m + away_m;
 }
 
 Vector3 draw_direction(core::Rng& rng) {

@@ -43,6 +43,7 @@ void visit_phone(Options& options, Visitor&& visit) {
   visit("gyroscope_noise_degps", options.gyroscope_noise_degps, 0.0, 20.0);
   visit("magnetometer_bias_sigma_ut", options.magnetometer_bias_sigma_ut, 0.0, 200.0);
   visit("magnetometer_noise_ut", options.magnetometer_noise_ut, 0.0, 50.0);
+  visit("has_attitude", options.has_attitude);
   visit("attitude_drift_sigma_deg", options.attitude_drift_sigma_deg, 0.0, 90.0);
   visit("attitude_magnetic_ratio", options.attitude_magnetic_ratio, 0.0, 1.0);
   visit("sway_deg", options.sway_deg, 0.0, 30.0);

@@ -113,11 +113,12 @@ void sense_motion(const Walk& walk, const MagneticWorld& world, const MagneticOp
         biases.magnetometer_turn * (device_from_site * field_ut) + biases.magnetometer_ut +
             draw_vector(rng, options.magnetometer_noise_ut),
         3});
+    last_heading_rad = body.heading_rad;
+    last_attitude = site_from_device;
+    if (!options.has_attitude) continue;
     const double error_rad = attitude_error.update(t_s, dt_s, field_ut, world.earth_ut());
     samples.push_back(sample::RotationSample{
         time, (about_up(error_rad - north_offset_rad) * site_from_device).normalized()});
-    last_heading_rad = body.heading_rad;
-    last_attitude = site_from_device;
   }
 }
 

@@ -67,7 +67,7 @@ Quaternion PhoneHold::site_from_device(const BodyState& body, double t_s) const 
 }
 
 double PhoneHold::height_m() const {
-  if (pose_ == PhoneOptions::Pose::kHand) return 1.2;
+  if (pose_ == PhoneOptions::Pose::kHand) return kHandHeight_m;
   return pose_ == PhoneOptions::Pose::kPocket ? 0.85 : 0.75;
 }
 

@@ -24,10 +24,22 @@ Receiver::Receiver(const RadioWorld& world, const RadioOptions& radio, const Pho
                    std::optional<std::uint64_t> drift_seed, core::Rng rng)
     : world_(world), radio_(radio), phone_(phone), rng_(std::move(rng)) {
   fading_.resize(world.emitters().size());
+  means_.resize(world.emitters().size());
   for (const Emitter& emitter : world.emitters()) {
     core::Rng drift(derive_seed(drift_seed.value_or(0), "drift/" + emitter.name));
     drift_db_.push_back(drift_seed ? drift.normal(0.0, radio.drift_sigma_db) : 0.0);
   }
+}
+
+double Receiver::mean_dbm(std::size_t emitter, const BodyState& body) {
+  Mean& mean = means_[emitter];
+  const bool is_same =
+      mean.is_known && mean.floor == body.floor && mean.position_m == body.position_m;
+  if (!is_same) {
+    mean = {body.floor, body.position_m, world_.mean_rssi_dbm(emitter, body.floor, body.position_m),
+            true};
+  }
+  return mean.rssi_dbm;
 }
 
 double Receiver::fading_db(std::size_t emitter, double t_s) {
@@ -53,9 +65,8 @@ double Receiver::body_db(std::size_t emitter, const BodyState& body) const {
 }
 
 std::optional<float> Receiver::hear(std::size_t emitter, const BodyState& body, double t_s) {
-  const double mean_dbm = world_.mean_rssi_dbm(emitter, body.floor, body.position_m);
-  const double on_air_dbm =
-      mean_dbm + drift_db_[emitter] + body_db(emitter, body) + fading_db(emitter, t_s);
+  const double on_air_dbm = mean_dbm(emitter, body) + drift_db_[emitter] + body_db(emitter, body) +
+                            fading_db(emitter, t_s);
   const double level = (on_air_dbm - radio_.detection_threshold_dbm) / radio_.detection_softness_db;
   if (rng_.uniform() >= 1.0 / (1.0 + std::exp(-level))) return std::nullopt;
   constexpr double kMiddle_dbm = -60.0;
