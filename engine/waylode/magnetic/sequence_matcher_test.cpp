@@ -1,0 +1,3 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/magnetic/sequence_matcher.hpp"
