@@ -123,8 +123,10 @@ struct DistanceResidual {
   template <typename T>
   bool operator()(const T* a, const T* b, T* residual) const {
     const Vector2<T> way = displacement(a, b);
-    if (is_short(way)) return false;
-    residual[0] = (way.norm() - T(term.metres)) / term.sigma_m;
+    using std::sqrt;
+    // Never quite zero, where a distance has no derivative.
+    const T square = way.squaredNorm() + T(kLeastDisplacement_m * kLeastDisplacement_m);
+    residual[0] = (sqrt(square) - T(term.metres)) / term.sigma_m;
     return true;
   }
 };
@@ -165,6 +167,7 @@ class Assembly {
     }
     problem_.SetParameterBlockConstant(node(graph.fixed_node));
     problem_.SetParameterBlockConstant(&graph.walks[graph.fixed_walk].heading_offset_rad);
+    hold_walks_without_segments();
   }
 
   ceres::Problem& problem() { return problem_; }
@@ -202,6 +205,15 @@ class Assembly {
       problem_.AddParameterBlock(&walk.reading_ratio, 1);
     }
     for (double& axis_rad : graph_->axes_rad) problem_.AddParameterBlock(&axis_rad, 1);
+  }
+
+  /// Nothing says where these headed.
+  void hold_walks_without_segments() {
+    std::vector<bool> walked(graph_->walks.size());
+    for (const SegmentTerm& term : graph_->segments) walked[term.walk] = true;
+    for (std::size_t w = 0; w < walked.size(); ++w) {
+      if (!walked[w]) problem_.SetParameterBlockConstant(&graph_->walks[w].heading_offset_rad);
+    }
   }
 
   void add(const SegmentTerm& term, const PoseGraphOptions& options) {
