@@ -39,6 +39,9 @@ void load(std::span<const std::byte> bytes) {
       sum += (*site)->floor({record.floor}).elevation_m + static_cast<double>(record.x_m);
     }
   }
+  for (const auto& point : (*site)->magnetic_map().points) {
+    sum += (*site)->floor({point.floor}).elevation_m + static_cast<double>(point.horizontal_ut);
+  }
   static_cast<void>(sum);
 }
 

@@ -8,7 +8,7 @@
 
 #include "waylode/core/covariance.hpp"
 #include "waylode/eval/detail/quantile.hpp"
-#include "waylode/eval/detail/svg_chart.hpp"
+#include "waylode/eval/svg_chart.hpp"
 
 namespace waylode::eval::detail {
 namespace {
@@ -29,10 +29,8 @@ std::vector<double> sorted_values(const std::vector<PointError>& errors, Value v
   return values;
 }
 
-/// An axis from 0 to at least `most`, ending on a tick.
 Axis axis_to(double most, int ticks, std::string label, std::string unit) {
-  const double tick = nice_step(std::max(most, 1e-3), ticks);
-  return {std::move(label), std::move(unit), tick * std::ceil(most / tick - 1e-9), tick};
+  return axis_over(0.0, most, ticks, std::move(label), std::move(unit));
 }
 
 Axis percent_axis(std::string label) { return {std::move(label), "%", 100.0, 20.0}; }

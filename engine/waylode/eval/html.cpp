@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
-#include "waylode/eval/detail/html.hpp"
+#include "waylode/eval/html.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace waylode::eval::detail {
+namespace waylode::eval {
 
 std::string escape_html(std::string_view text) {
   std::string out;
@@ -45,4 +45,4 @@ std::string coordinate(double value) {
   return fmt::format("{:g}", tenths / 10.0 + 0.0);
 }
 
-}  // namespace waylode::eval::detail
+}  // namespace waylode::eval

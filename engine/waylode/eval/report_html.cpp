@@ -8,19 +8,18 @@
 #include <utility>
 
 #include "waylode/eval/detail/error_charts.hpp"
-#include "waylode/eval/detail/html.hpp"
 #include "waylode/eval/detail/report_data.hpp"
 #include "waylode/eval/detail/report_style.hpp"
 #include "waylode/eval/detail/report_table.hpp"
-#include "waylode/eval/detail/svg_chart.hpp"
 #include "waylode/eval/detail/svg_plan.hpp"
+#include "waylode/eval/html.hpp"
 #include "waylode/eval/report.hpp"
+#include "waylode/eval/report_page.hpp"
+#include "waylode/eval/svg_chart.hpp"
 
 namespace waylode::eval {
 namespace {
 
-using detail::escape_html;
-using detail::html_number;
 using detail::MethodErrors;
 
 /// The row of the group "all" with the least mean error; nullptr when nothing was scored.
@@ -80,7 +79,7 @@ std::string legend(const std::vector<MethodErrors>& methods) {
     html += fmt::format(
         "<label class=\"{}\"><input type=\"checkbox\" checked=\"checked\" disabled=\"disabled\" "
         "data-toggle=\"{}\"/><span><span class=\"swatch\"></span>{}</span></label>",
-        detail::method_classes(m), m, escape_html(methods[m].name));
+        method_classes(m), m, escape_html(methods[m].name));
   }
   return html + "</nav>\n";
 }
@@ -162,21 +161,27 @@ std::string drawings(const ReportOptions& options, std::span<const EvaluatedTrac
 
 }  // namespace
 
-std::string to_html(const ReportOptions& options, std::span<const EvaluatedTrack> tracks,
-                    std::span<const ResultRow> rows) {
-  const std::vector<MethodErrors> methods = detail::errors_by_method(tracks);
+std::string report_page(std::string_view title, std::string_view body) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
-      escape_html(options.title) + "</title><style>";
+      escape_html(title) + "</title><style>";
   html += detail::report_style();
-  html += "</style></head><body><main>\n" + header(options) + headline(tracks, rows);
-  html += tables(rows, methods) + legend(methods) + "<h2>Errors</h2>\n" + charts(methods);
-  const std::string groups = detail::group_table(rows, methods);
-  if (!groups.empty()) html += "<h2>By site and floor</h2>\n" + groups;
-  html += drawings(options, tracks, methods) + "</main><script>";
+  html += "</style></head><body><main>\n";
+  html += body;
+  html += "</main><script>";
   html += detail::report_script();
   return html + "</script></body></html>\n";
+}
+
+std::string to_html(const ReportOptions& options, std::span<const EvaluatedTrack> tracks,
+                    std::span<const ResultRow> rows) {
+  const std::vector<MethodErrors> methods = detail::errors_by_method(tracks);
+  std::string body = header(options) + headline(tracks, rows);
+  body += tables(rows, methods) + legend(methods) + "<h2>Errors</h2>\n" + charts(methods);
+  const std::string groups = detail::group_table(rows, methods);
+  if (!groups.empty()) body += "<h2>By site and floor</h2>\n" + groups;
+  return report_page(options.title, body + drawings(options, tracks, methods));
 }
 
 }  // namespace waylode::eval

@@ -186,11 +186,11 @@ std::string_view report_script() {
       cursor.setAttribute("x2", x);
       cursor.classList.add("on");
       readout.textContent = "";
-      addLine((((x - d.x0) / (d.x1 - d.x0)) * d.xmax).toFixed(1) + " " + d.xunit);
+      addLine((+d.xmin + ((x - d.x0) / (d.x1 - d.x0)) * (d.xmax - d.xmin)).toFixed(1) + " " + d.xunit);
       chart.querySelectorAll("g[data-m]:not(.off)").forEach(function (series) {
-        var line = series.querySelector("polyline"), y = heightAt(line, x);
+        var line = series.querySelector("polyline"), y = line === null ? null : heightAt(line, x);
         if (y === null) { return; }
-        var value = ((y - d.y0) / (d.y1 - d.y0)) * d.ymax;
+        var value = +d.ymin + ((y - d.y0) / (d.y1 - d.y0)) * (d.ymax - d.ymin);
         addLine(series.dataset.name + " " + value.toFixed(1) + " " + d.yunit,
                 getComputedStyle(line).stroke);
       });

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
-#include "waylode/eval/detail/svg_chart.hpp"
+#include "waylode/eval/svg_chart.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "waylode/eval/detail/html.hpp"
+#include "waylode/eval/html.hpp"
 
-namespace waylode::eval::detail {
+namespace waylode::eval {
 namespace {
 
 constexpr std::size_t kColourCount = 8;
@@ -21,12 +23,28 @@ constexpr double kBottom_px = 292.0;
 
 /// Axes' units to pixels.
 struct Scale {
-  double x_max;
-  double y_max;
+  const Axis& x;
+  const Axis& y;
 
-  double x_px(double x) const { return kLeft_px + (kRight_px - kLeft_px) * x / x_max; }
-  double y_px(double y) const { return kBottom_px - (kBottom_px - kTop_px) * y / y_max; }
+  double x_px(double value) const {
+    return kLeft_px + (kRight_px - kLeft_px) * (value - x.min) / (x.max - x.min);
+  }
+  double y_px(double value) const {
+    return kBottom_px - (kBottom_px - kTop_px) * (value - y.min) / (y.max - y.min);
+  }
 };
+
+/// Widens one axis until a unit is as long on both.
+void equalise(Axis& x, Axis& y) {
+  const double wide = (x.max - x.min) / (kRight_px - kLeft_px);
+  const double high = (y.max - y.min) / (kBottom_px - kTop_px);
+  Axis& tight = wide > high ? y : x;
+  const double lack = wide > high ? wide * (kBottom_px - kTop_px) - (y.max - y.min)
+                                  : high * (kRight_px - kLeft_px) - (x.max - x.min);
+  const double below = tight.tick * std::round(0.5 * lack / tight.tick);
+  tight.min -= below;
+  tight.max += lack - below;
+}
 
 std::string line(const char* css, double x1, double y1, double x2, double y2) {
   return fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", css,
@@ -41,11 +59,13 @@ std::string text(const char* css, double x, double y, const std::string& content
 std::string axes_svg(const LineChart& chart, const Scale& scale) {
   constexpr double kRounding = 1e-9;  // So that the last tick is not lost to rounding.
   std::string svg;
-  for (double x = 0.0; x <= chart.x.max * (1.0 + kRounding); x += chart.x.tick) {
+  for (int i = 0; i <= (chart.x.max - chart.x.min) / chart.x.tick * (1.0 + kRounding); ++i) {
+    const double x = chart.x.min + i * chart.x.tick;
     svg += line("grid", scale.x_px(x), kTop_px, scale.x_px(x), kBottom_px);
     svg += text("tick mid", scale.x_px(x), kBottom_px + 17.0, fmt::format("{:.4g}", x));
   }
-  for (double y = 0.0; y <= chart.y.max * (1.0 + kRounding); y += chart.y.tick) {
+  for (int i = 0; i <= (chart.y.max - chart.y.min) / chart.y.tick * (1.0 + kRounding); ++i) {
+    const double y = chart.y.min + i * chart.y.tick;
     svg += line("grid", kLeft_px, scale.y_px(y), kRight_px, scale.y_px(y));
     svg += text("tick end", kLeft_px - 7.0, scale.y_px(y) + 4.0, fmt::format("{:.4g}", y));
   }
@@ -73,32 +93,54 @@ std::string guides_svg(const LineChart& chart, const Scale& scale) {
 std::string series_svg(const Series& series, const Scale& scale) {
   std::string points;
   std::string dots;
-  for (const core::Vector2& point : series.points) {
+  std::string bars;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const core::Vector2& point = series.points[i];
     const std::string x = coordinate(scale.x_px(point.x()));
     const std::string y = coordinate(scale.y_px(point.y()));
     points += (points.empty() ? "" : " ") + x + "," + y;
     if (series.with_dots) dots += "M" + x + " " + y + "h0";
+    if (i < series.half_widths.size()) {
+      bars += "M" + x + " " + coordinate(scale.y_px(point.y() - series.half_widths[i])) + "V" +
+              coordinate(scale.y_px(point.y() + series.half_widths[i]));
+    }
   }
-  std::string svg = fmt::format(
-      "<g class=\"{}\" data-m=\"{}\" data-name=\"{}\"><polyline class=\"line\" points=\"{}\"/>",
-      method_classes(series.method), series.method, escape_html(series.name), points);
+  std::string svg =
+      fmt::format("<g class=\"{}\" data-m=\"{}\" data-name=\"{}\">", method_classes(series.method),
+                  series.method, escape_html(series.name));
+  if (series.with_line) svg += "<polyline class=\"line\" points=\"" + points + "\"/>";
   if (!dots.empty()) svg += "<path class=\"dots\" d=\"" + dots + "\"/>";
+  if (!bars.empty()) svg += "<path class=\"line\" d=\"" + bars + "\"/>";
   return svg + "</g>";
 }
 
 /// What the page's script needs to turn pixels back into the axes' units.
 std::string hover_attributes(const LineChart& chart) {
   return fmt::format(
-      "data-x0=\"{}\" data-x1=\"{}\" data-y0=\"{}\" data-y1=\"{}\" data-xmax=\"{:g}\" "
-      "data-ymax=\"{:g}\" data-xunit=\"{}\" data-yunit=\"{}\"",
+      "data-x0=\"{}\" data-x1=\"{}\" data-y0=\"{}\" data-y1=\"{}\" data-xmin=\"{:g}\" "
+      "data-xmax=\"{:g}\" data-ymin=\"{:g}\" data-ymax=\"{:g}\" data-xunit=\"{}\" "
+      "data-yunit=\"{}\"",
       coordinate(kLeft_px), coordinate(kRight_px), coordinate(kBottom_px), coordinate(kTop_px),
-      chart.x.max, chart.y.max, escape_html(chart.x.unit), escape_html(chart.y.unit));
+      chart.x.min, chart.x.max, chart.y.min, chart.y.max, escape_html(chart.x.unit),
+      escape_html(chart.y.unit));
 }
 
 }  // namespace
 
-std::string svg_line_chart(const LineChart& chart) {
-  const Scale scale{chart.x.max, chart.y.max};
+Axis axis_over(double least, double most, int ticks, std::string label, std::string unit) {
+  constexpr double kNarrowest = 1e-3;
+  constexpr double kRounding = 1e-9;
+  const double tick = nice_step(std::max(most - least, kNarrowest), ticks);
+  Axis axis{std::move(label), std::move(unit), tick * std::ceil(most / tick - kRounding), tick,
+            tick * std::floor(least / tick + kRounding)};
+  if (axis.max <= axis.min) axis.max = axis.min + tick;
+  return axis;
+}
+
+std::string svg_line_chart(const LineChart& drawn) {
+  LineChart chart = drawn;
+  if (chart.equal_scales) equalise(chart.x, chart.y);
+  const Scale scale{chart.x, chart.y};
   std::string svg =
       fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" {}>",
                   kWidth_px, kHeight_px, escape_html(chart.title), hover_attributes(chart));
@@ -125,4 +167,4 @@ std::string method_classes(std::size_t method) {
   return fmt::format("c{} k{}", method % kColourCount, (method / 4) % 3);
 }
 
-}  // namespace waylode::eval::detail
+}  // namespace waylode::eval

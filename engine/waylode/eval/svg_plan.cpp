@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "waylode/core/assert.hpp"
-#include "waylode/eval/detail/html.hpp"
-#include "waylode/eval/detail/svg_chart.hpp"
+#include "waylode/eval/html.hpp"
+#include "waylode/eval/svg_chart.hpp"
 
 namespace waylode::eval::detail {
 namespace {

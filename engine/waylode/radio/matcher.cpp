@@ -154,6 +154,7 @@ MatchResult Matcher::match(std::span<const QueryReading> readings, std::size_t c
                                                common.product[i - begin])});
     }
     if (sharing.empty()) continue;
+    result.compared += sharing.size();
     result.floors.push_back({range.floor, keep_nearest(std::move(sharing), count)});
   }
   return result;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -48,6 +49,7 @@ struct FloorMatch {
 struct MatchResult {
   /// Share of the query's strength that comes from transmitters in the map, 0 to 1.
   float known_share_ratio = 0.0F;
+  std::size_t compared = 0;  ///< Fingerprints that share a transmitter with the query.
   std::vector<FloorMatch>
       floors;  ///< Floors with at least one fingerprint that shares a transmitter.
 };

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+
+#include "waylode/radio/detail/neighbourhood.hpp"
 
 namespace waylode::radio {
 namespace {
@@ -30,26 +33,13 @@ std::vector<double> weights_of(std::span<const Neighbour> neighbours, double exp
 
 FloorHypothesis locate_on_floor(const FloorMatch& match, const site::RadioMap& map,
                                 const WknnEstimator::Options& options) {
-  FloorHypothesis hypothesis;
-  hypothesis.floor = match.floor;
   const std::vector<double> weights = weights_of(match.neighbours, options.weight_exponent);
-  double total = 0.0;
-  for (const double weight : weights) total += weight;
-  hypothesis.position_m.setZero();
+  std::vector<observation::RadioCandidate> candidates;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const core::Vector2 place = place_of(map.fingerprints[match.neighbours[i].fingerprint]);
-    hypothesis.candidates.push_back({place, weights[i] / total});
-    hypothesis.position_m += weights[i] / total * place;
+    candidates.push_back({place_of(map.fingerprints[match.neighbours[i].fingerprint]), weights[i]});
   }
-  core::Matrix2 scatter_m2 = core::Matrix2::Zero();
-  for (const observation::RadioCandidate& candidate : hypothesis.candidates) {
-    const core::Vector2 deviation = candidate.position_m - hypothesis.position_m;
-    scatter_m2 += candidate.weight * deviation * deviation.transpose();
-  }
-  hypothesis.covariance_m2 =
-      options.base_sigma_m * options.base_sigma_m * core::Matrix2::Identity() +
-      options.spread_gain * scatter_m2;
-  return hypothesis;
+  return detail::locate(match.floor, std::move(candidates),
+                        {options.base_sigma_m, options.spread_gain});
 }
 
 /// Weighted vote of the nearest fingerprints over all floors, as log shares.
@@ -68,16 +58,11 @@ std::map<core::FloorId, double> vote_for_floors(const MatchResult& match,
   for (const auto& [neighbour, floor] : all) voters.push_back(neighbour);
   const std::vector<double> weights = weights_of(voters, options.weight_exponent);
 
-  std::map<core::FloorId, double> share;
-  double total = 0.0;
-  for (const double weight : weights) total += weight;
-  for (const FloorMatch& floor : match.floors) share[floor.floor] = 0.0;
-  for (std::size_t i = 0; i < all.size(); ++i) share[all[i].second] += weights[i] / total;
-  // A vote of nobody is not proof: neighbours come in runs of the same walk.
-  constexpr double kDoubt = 0.1;
-  const double doubt_each = kDoubt / static_cast<double>(share.size());
-  for (auto& [floor, value] : share) value = std::log((1.0 - kDoubt) * value + doubt_each);
-  return share;
+  std::vector<core::FloorId> floors;
+  for (const FloorMatch& floor : match.floors) floors.push_back(floor.floor);
+  std::vector<detail::Vote> votes;
+  for (std::size_t i = 0; i < all.size(); ++i) votes.push_back({all[i].second, weights[i]});
+  return detail::log_shares(floors, votes);
 }
 
 }  // namespace
@@ -103,8 +88,8 @@ core::Result<void> WknnEstimator::Options::validate() const {
   return {};
 }
 
-std::optional<observation::RadioObservation> WknnEstimator::estimate(
-    const Query& query, std::optional<core::FloorId> known_floor) const {
+std::optional<Positioning> WknnEstimator::position(const Query& query,
+                                                   std::optional<core::FloorId> known_floor) const {
   if (query.readings.size() < options_.min_readings) return std::nullopt;
   const MatchResult match = matcher_->match(query.readings, options_.neighbours, known_floor);
   if (match.floors.empty()) return std::nullopt;
@@ -113,17 +98,26 @@ std::optional<observation::RadioObservation> WknnEstimator::estimate(
   const auto count = static_cast<double>(query.readings.size());
   const double trust = count / (count + options_.few_readings);
   const double floor_trust = count / (count + options_.floor_few_readings);
-  observation::RadioObservation result;
-  result.measured = query.measured;
-  result.delivered = query.delivered;
-  result.known_share_ratio = static_cast<double>(match.known_share_ratio);
+  Positioning result;
+  result.comparisons = match.compared;
+  result.observation.measured = query.measured;
+  result.observation.delivered = query.delivered;
+  result.observation.known_share_ratio = static_cast<double>(match.known_share_ratio);
+  std::vector<FloorHypothesis>& floors = result.observation.floors;
   for (const FloorMatch& floor : match.floors) {
-    result.floors.push_back(locate_on_floor(floor, matcher_->map(), options_));
-    result.floors.back().covariance_m2 /= trust;
-    result.floors.back().log_likelihood = floor_trust * votes.at(floor.floor);
+    floors.push_back(locate_on_floor(floor, matcher_->map(), options_));
+    floors.back().covariance_m2 /= trust;
+    floors.back().log_likelihood = floor_trust * votes.at(floor.floor);
   }
-  std::ranges::stable_sort(result.floors, std::ranges::greater{}, &FloorHypothesis::log_likelihood);
+  std::ranges::stable_sort(floors, std::ranges::greater{}, &FloorHypothesis::log_likelihood);
   return result;
+}
+
+std::optional<observation::RadioObservation> WknnEstimator::estimate(
+    const Query& query, std::optional<core::FloorId> known_floor) const {
+  std::optional<Positioning> positioning = position(query, known_floor);
+  if (!positioning) return std::nullopt;
+  return std::move(positioning->observation);
 }
 
 bool WknnEstimator::is_foreign(const Query& query) const {

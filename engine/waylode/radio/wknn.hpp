@@ -7,6 +7,7 @@
 #include "waylode/core/result.hpp"
 #include "waylode/observation/observation.hpp"
 #include "waylode/radio/matcher.hpp"
+#include "waylode/radio/positioner.hpp"
 #include "waylode/radio/scan_assembler.hpp"
 
 namespace waylode::radio {
@@ -42,6 +43,10 @@ class WknnEstimator {
   std::optional<observation::RadioObservation> estimate(
       const Query& query, std::optional<core::FloorId> known_floor = std::nullopt) const;
 
+  /// The same, with the number of fingerprints it took.
+  std::optional<Positioning> position(
+      const Query& query, std::optional<core::FloorId> known_floor = std::nullopt) const;
+
   /// Whether a scan shows that the phone is off the map: at least min_readings of Wi-Fi (or table
   /// columns), and the map knows none of the scan. Bluetooth alone never does, since people carry
   /// most of it about.
@@ -54,6 +59,21 @@ class WknnEstimator {
  private:
   const Matcher* matcher_;
   Options options_;
+};
+
+/// The same behind the common interface; ignores the prior.
+class WknnPositioner final : public Positioner {
+ public:
+  /// The matcher of `estimator` must outlive this.
+  explicit WknnPositioner(const WknnEstimator& estimator) : estimator_(estimator) {}
+
+  std::optional<Positioning> estimate(const Query& query, std::optional<core::FloorId> known_floor,
+                                      const std::optional<core::Belief>&) const override {
+    return estimator_.position(query, known_floor);
+  }
+
+ private:
+  WknnEstimator estimator_;
 };
 
 }  // namespace waylode::radio

@@ -9,6 +9,7 @@
 #include "waylode/core/crc32.hpp"
 #include "waylode/core/file.hpp"
 #include "waylode/site/detail/bundle_layout.hpp"
+#include "waylode/site/detail/magnetic_map_check.hpp"
 #include "waylode/site/detail/radio_map_check.hpp"
 #include "waylode/site/detail/site_json.hpp"
 
@@ -77,14 +78,12 @@ class SectionTable {
     return table;
   }
 
+  bool contains(std::string_view name) const { return entry_of(name) != nullptr; }
+
   Result<Bytes> find(std::string_view name) const {
-    for (const SectionEntry& entry : entries_) {
-      const auto end = std::ranges::find(entry.name, '\0');
-      if (std::string_view(entry.name.begin(), end) == name) {
-        return bytes_.subspan(entry.offset, entry.size);
-      }
-    }
-    return corrupt("section " + std::string(name) + " is missing", place_);
+    const SectionEntry* const entry = entry_of(name);
+    if (entry == nullptr) return corrupt("section " + std::string(name) + " is missing", place_);
+    return bytes_.subspan(entry->offset, entry->size);
   }
 
   /// The section as an array, in place.
@@ -102,6 +101,14 @@ class SectionTable {
  private:
   SectionTable(Bytes bytes, std::string place) : bytes_(bytes), place_(std::move(place)) {}
 
+  const SectionEntry* entry_of(std::string_view name) const {
+    for (const SectionEntry& entry : entries_) {
+      const auto end = std::ranges::find(entry.name, '\0');
+      if (std::string_view(entry.name.begin(), end) == name) return &entry;
+    }
+    return nullptr;
+  }
+
   Bytes bytes_;
   std::string place_;
   std::vector<SectionEntry> entries_;
@@ -118,6 +125,18 @@ Result<RadioMap> read_radio_map(const SectionTable& table, std::size_t floor_cou
   const auto postings = table.find_array<Posting>(detail::kPostingSection);
   if (!postings) return tl::unexpected(postings.error());
   const RadioMap map{*fingerprints, *transmitters, *posting_begin, *postings};
+  std::string defect = detail::defect_of(map, floor_count);
+  if (!defect.empty()) return corrupt(std::move(defect), place);
+  return map;
+}
+
+/// Bundles of sites whose field nobody surveyed have no such section.
+Result<MagneticMap> read_magnetic_map(const SectionTable& table, std::size_t floor_count,
+                                      const std::string& place) {
+  if (!table.contains(detail::kMagneticSection)) return MagneticMap{};
+  const auto points = table.find_array<MagneticPoint>(detail::kMagneticSection);
+  if (!points) return tl::unexpected(points.error());
+  const MagneticMap map{*points};
   std::string defect = detail::defect_of(map, floor_count);
   if (!defect.empty()) return corrupt(std::move(defect), place);
   return map;
@@ -153,8 +172,10 @@ Result<std::shared_ptr<const Site>> parse_bundle(Bytes bytes,
   if (!parts) return tl::unexpected(parts.error());
   const auto radio_map = read_radio_map(*table, parts->floors.size(), place_text);
   if (!radio_map) return tl::unexpected(radio_map.error());
-  return std::make_shared<const Site>(std::move(*parts), *radio_map, std::move(keep_alive),
-                                      header->content_hash);
+  const auto magnetic_map = read_magnetic_map(*table, parts->floors.size(), place_text);
+  if (!magnetic_map) return tl::unexpected(magnetic_map.error());
+  return std::make_shared<const Site>(std::move(*parts), *radio_map, *magnetic_map,
+                                      std::move(keep_alive), header->content_hash);
 }
 
 Result<std::shared_ptr<const Site>> load_bundle(const std::filesystem::path& path) {

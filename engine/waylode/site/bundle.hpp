@@ -23,11 +23,11 @@ inline constexpr const char* kBundleSuffix = ".wlsite";
 inline constexpr std::uint32_t kBundleFormatVersion = 1;
 
 /// A bundle's bytes. Equal input, equal bytes. kInvalidArgument for parts that could not be loaded
-/// again: numbers that are not finite, names that are not UTF-8 or not unique, a radio map that
-/// names floors the site does not have.
+/// again: numbers that are not finite, names that are not UTF-8 or not unique, maps that
+/// name floors the site does not have.
 core::Result<std::string> format_bundle(const SiteParts& parts);
 
-/// Reads a bundle in memory; the radio map is used in place. `bytes` start at a multiple of 8 and
+/// Reads a bundle in memory; the maps are used in place. `bytes` start at a multiple of 8 and
 /// live as long as `keep_alive`. `place` names the source in errors; kBundleCorrupt as below.
 core::Result<std::shared_ptr<const Site>> parse_bundle(std::span<const std::byte> bytes,
                                                        std::shared_ptr<const void> keep_alive,
@@ -37,7 +37,7 @@ core::Result<std::shared_ptr<const Site>> parse_bundle(std::span<const std::byte
 /// equal version. Errors of format_bundle, or kFileUnwritable.
 core::Result<std::uint64_t> write_bundle(const SiteParts& parts, const std::filesystem::path& path);
 
-/// Maps the file; the radio map is used in place. Replace a bundle by write_bundle only: a mapped
+/// Maps the file; the maps are used in place. Replace a bundle by write_bundle only: a mapped
 /// file must not be shortened. kFileNotFound, kFileUnreadable, or kBundleCorrupt for anything that
 /// is not a whole, unharmed bundle of a version this program knows.
 core::Result<std::shared_ptr<const Site>> load_bundle(const std::filesystem::path& path);

@@ -46,6 +46,8 @@ SiteParts small_site() {
   builder.add({3.5F, 4.5F, 0.5F, 2, 1, 0},
               {{TransmitterId::wifi(0xB), -70.5F, 0.0F}, {TransmitterId::wifi(0xA), -60.0F, 0.0F}});
   parts.radio_map = builder.build();
+  parts.magnetic_map.points = {{1.25F, -2.5F, 21.5F, -43.25F, 0.75F, 0, 9},
+                               {3.5F, 4.25F, 30.0F, 12.0F, 0.0F, 1, 1}};
   return parts;
 }
 
@@ -69,7 +71,7 @@ std::string resealed(std::string bytes, std::uint32_t format_version = kBundleFo
 }
 
 detail::SectionEntry entry_of(const std::string& bytes, std::string_view name) {
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < 6; ++i) {
     detail::SectionEntry entry;
     std::memcpy(&entry, bytes.data() + 64 + 64 * i, sizeof(entry));
     if (name == entry.name.data()) return entry;
@@ -102,6 +104,7 @@ TEST(Bundle, GivesBackEveryPartExactly) {
   EXPECT_TRUE(std::ranges::equal(map.transmitters, parts.radio_map.transmitters));
   EXPECT_TRUE(std::ranges::equal(map.posting_begin, parts.radio_map.posting_begin));
   EXPECT_TRUE(std::ranges::equal(map.postings, parts.radio_map.postings));
+  EXPECT_TRUE(std::ranges::equal((*site)->magnetic_map().points, parts.magnetic_map.points));
 }
 
 TEST(Bundle, HasOneVersionPerContent) {
@@ -122,6 +125,20 @@ TEST(Bundle, HoldsASiteWithoutMapOrFloors) {
   ASSERT_TRUE(site);
   EXPECT_TRUE((*site)->radio_map().empty());
   EXPECT_TRUE((*site)->radio_map().postings_of(TransmitterId::wifi(1)).empty());
+}
+
+TEST(Bundle, HasNoMagneticSectionWhereTheFieldWasNotSurveyed) {
+  SiteParts parts = small_site();
+  parts.magnetic_map.points.clear();
+  const std::string bytes = format_bundle(parts).value();
+  // As bundles were before there were magnetic maps: five sections.
+  std::uint32_t section_count = 0;
+  std::memcpy(&section_count, bytes.data() + 12, sizeof(section_count));
+  EXPECT_EQ(section_count, 5U);
+  const auto site = parse(bytes);
+  ASSERT_TRUE(site);
+  EXPECT_TRUE((*site)->magnetic_map().empty());
+  EXPECT_FALSE((*site)->radio_map().empty());
 }
 
 TEST(Bundle, NoticesAChangeOfAnyByte) {
@@ -190,6 +207,30 @@ TEST(Bundle, ChecksEveryIndexOfTheRadioMap) {
   expect_corrupt(with(detail::kPostingSection, 8, std::uint32_t{0}), "order of fingerprints");
 }
 
+TEST(Bundle, ChecksEveryPointOfTheMagneticMap) {
+  const std::string bytes = format_bundle(small_site()).value();
+  const auto with = [&](std::size_t at, auto value) {
+    std::string changed = bytes;
+    std::memcpy(changed.data() + entry_of(bytes, detail::kMagneticSection).offset + at, &value,
+                sizeof(value));
+    return resealed(changed);
+  };
+  // Two points of 24 bytes, floors 0 and 1.
+  expect_corrupt(with(0, std::nanf("")), "magnetic.points entry 0 has no finite position");
+  expect_corrupt(with(28, std::numeric_limits<float>::infinity()),
+                 "entry 1 has no finite position");
+  expect_corrupt(with(8, -1.0F), "no usable field");
+  expect_corrupt(with(36, std::nanf("")), "entry 1 has no usable field");
+  expect_corrupt(with(16, -0.5F), "no usable sigma");
+  expect_corrupt(with(44, std::uint16_t{2}), "entry 1 names a floor that does not exist");
+  expect_corrupt(with(46, std::uint16_t{0}), "entry 1 averages no reading");
+  SiteParts parts = small_site();
+  std::swap(parts.magnetic_map.points[0], parts.magnetic_map.points[1]);
+  const auto refused = format_bundle(parts);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("magnetic.points entry 1 is not in the order"));
+}
+
 TEST(Bundle, ChecksTheSectionTable) {
   const std::string bytes = format_bundle(small_site()).value();
   const auto with = [&](std::size_t at, std::uint64_t value) {
@@ -203,6 +244,7 @@ TEST(Bundle, ChecksTheSectionTable) {
   expect_corrupt(with(64 + 40, std::numeric_limits<std::uint64_t>::max()), "outside");
   expect_corrupt(with(64, 0), "section site.json is missing");
   expect_corrupt(with(64 + 64 + 40, 39), "within an entry");
+  expect_corrupt(with(64 + 5 * 64 + 40, 47), "magnetic.points ends within an entry");
 }
 
 TEST(Bundle, RefusesToWriteWhatCannotBeLoaded) {
@@ -222,6 +264,12 @@ TEST(Bundle, RefusesToWriteWhatCannotBeLoaded) {
   expect_refused(parts);
   parts = small_site();
   parts.floors.pop_back();  // the radio map still names it
+  expect_refused(parts);
+  parts = small_site();
+  parts.magnetic_map.points[1].floor = 2;
+  expect_refused(parts);
+  parts = small_site();
+  parts.magnetic_map.points[0].count = 0;
   expect_refused(parts);
   parts = small_site();
   parts.floors[0].site_from_floor.linear.setZero();

@@ -75,13 +75,15 @@ Result<std::string> format_bundle(const SiteParts& parts) {
   const auto site_json = detail::format_site_json(parts);
   if (!site_json) return tl::unexpected(site_json.error());
   const RadioMapStorage& map = parts.radio_map;
-  const Section sections[] = {{detail::kSiteSection, *site_json},
-                              {detail::kFingerprintSection, bytes_of(map.fingerprints)},
-                              {detail::kTransmitterSection, bytes_of(map.transmitters)},
-                              {detail::kPostingBeginSection, bytes_of(map.posting_begin)},
-                              {detail::kPostingSection, bytes_of(map.postings)}};
+  std::vector<Section> sections = {{detail::kSiteSection, *site_json},
+                                   {detail::kFingerprintSection, bytes_of(map.fingerprints)},
+                                   {detail::kTransmitterSection, bytes_of(map.transmitters)},
+                                   {detail::kPostingBeginSection, bytes_of(map.posting_begin)},
+                                   {detail::kPostingSection, bytes_of(map.postings)}};
+  const std::vector<MagneticPoint>& field = parts.magnetic_map.points;
+  if (!field.empty()) sections.emplace_back(detail::kMagneticSection, bytes_of(field));
   std::string bytes = lay_out(sections);
-  seal(bytes, std::size(sections));
+  seal(bytes, sections.size());
   // What cannot be loaded is not written.
   const auto loaded = parse_bundle(std::as_bytes(std::span(bytes)), nullptr, parts.name);
   if (!loaded) {

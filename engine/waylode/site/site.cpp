@@ -27,13 +27,15 @@ std::vector<core::Affine2> invert_all(const std::vector<Floor>& floors) {
 Site::Site(SiteParts parts)
     : parts_(std::move(parts)), floor_from_site_(invert_all(parts_.floors)) {
   radio_map_ = parts_.radio_map.view();
+  magnetic_map_ = parts_.magnetic_map.view();
 }
 
-Site::Site(SiteParts parts, RadioMap radio_map, std::shared_ptr<const void> keep_alive,
-           std::uint64_t version)
+Site::Site(SiteParts parts, RadioMap radio_map, MagneticMap magnetic_map,
+           std::shared_ptr<const void> keep_alive, std::uint64_t version)
     : parts_(std::move(parts)),
       floor_from_site_(invert_all(parts_.floors)),
       radio_map_(radio_map),
+      magnetic_map_(magnetic_map),
       keep_alive_(std::move(keep_alive)),
       version_(version) {}
 

@@ -13,6 +13,7 @@
 #include "waylode/core/id.hpp"
 #include "waylode/core/result.hpp"
 #include "waylode/site/floor.hpp"
+#include "waylode/site/magnetic_map.hpp"
 #include "waylode/site/radio_map.hpp"
 
 namespace waylode::site {
@@ -24,7 +25,8 @@ struct SiteParts {
   /// georeference, whose site frame is then just shared metres.
   std::optional<core::GeoPoint> origin;
   std::vector<Floor> floors;  ///< At most 65535; FloorId is the index.
-  RadioMapStorage radio_map;
+  RadioMapStorage radio_map{};
+  MagneticMapStorage magnetic_map{};
 };
 
 /// A building, immutable: floors, frames and built maps. Cheap to share between sessions.
@@ -34,11 +36,11 @@ struct SiteParts {
 class Site {
  public:
   explicit Site(SiteParts parts);
-  /// A site whose radio map lives elsewhere (a mapped bundle); `keep_alive` owns that storage.
-  /// `parts.radio_map` is ignored.
-  Site(SiteParts parts, RadioMap radio_map, std::shared_ptr<const void> keep_alive,
-       std::uint64_t version);
-  // The radio map views storage inside: moving keeps it in place, copying would not.
+  /// A site whose maps live elsewhere (a mapped bundle); `keep_alive` owns that storage.
+  /// Those of `parts` are ignored.
+  Site(SiteParts parts, RadioMap radio_map, MagneticMap magnetic_map,
+       std::shared_ptr<const void> keep_alive, std::uint64_t version);
+  // The maps view storage inside: moving keeps it in place, copying would not.
   Site(Site&&) = default;
   Site& operator=(Site&&) = default;
 
@@ -47,6 +49,7 @@ class Site {
   const Floor& floor(core::FloorId id) const { return parts_.floors[id.index]; }
   std::optional<core::FloorId> find_floor(std::string_view floor_name) const;
   const RadioMap& radio_map() const { return radio_map_; }
+  const MagneticMap& magnetic_map() const { return magnetic_map_; }
   const std::optional<core::GeoPoint>& origin() const { return parts_.origin; }
   /// Identifies plans and maps by content (checksum of the bundle); 0 for a site never stored.
   std::uint64_t version() const { return version_; }
@@ -66,6 +69,7 @@ class Site {
   SiteParts parts_;
   std::vector<core::Affine2> floor_from_site_;
   RadioMap radio_map_;
+  MagneticMap magnetic_map_;
   std::shared_ptr<const void> keep_alive_;
   std::uint64_t version_ = 0;
 };

@@ -15,6 +15,7 @@
 #include "waylode/sample/sample.hpp"
 #include "waylode/site/site.hpp"
 #include "waylode/survey/labelled_path.hpp"
+#include "waylode/survey/magnetic_survey.hpp"
 #include "waylode/survey/moving_transmitters.hpp"
 #include "waylode/survey/surveyed_recording.hpp"
 
@@ -36,11 +37,12 @@ struct FloorQuality {
 
 struct QualityReport {
   std::vector<FloorQuality> floors;
-  std::uint64_t stretches = 0;            ///< Between two marks.
-  std::uint64_t stretches_straight = 0;   ///< Labelled along a line: steps did not fit.
-  std::uint64_t stretches_rejected = 0;   ///< Gave no labels.
-  std::uint64_t scans_unlabelled = 0;     ///< Heard outside the marks or on rejected stretches.
-  std::uint64_t readings_duplicate = 0;   ///< Already told by an earlier recording.
+  std::uint64_t stretches = 0;           ///< Between two marks.
+  std::uint64_t stretches_straight = 0;  ///< Labelled along a line: steps did not fit.
+  std::uint64_t stretches_rejected = 0;  ///< Gave no labels.
+  std::uint64_t scans_unlabelled = 0;    ///< Heard outside the marks or on rejected stretches.
+  /// Told already: by an earlier recording, or by an earlier scan of the same time.
+  std::uint64_t readings_duplicate = 0;
   std::uint64_t readings_unmappable = 0;  ///< Transmitter asks not to be mapped.
   std::uint64_t transmitters_moving = 0;  ///< Left out: they move.
   std::vector<std::string> notes;         ///< Recordings that gave nothing, and why.
@@ -51,8 +53,8 @@ struct SurveyedSite {
   QualityReport quality;
 };
 
-/// Surveyed walks in, radio map out. Scans become instances at the places where their signals were
-/// heard; floors learn how far the phone's compass is off their plan.
+/// Surveyed walks in, radio map and magnetic map out. Scans become instances at the places where
+/// their signals were heard; floors learn how far the phone's compass is off their plan.
 class MapBuilder {
  public:
   struct Options {
@@ -60,12 +62,16 @@ class MapBuilder {
     pdr::DeadReckoning::Options pdr;
     LabelledPath::Options labels;
     MovingTransmitterFilter::Options moving;
+    /// kAll for surveys of several walks through every place, some days apart.
+    MovingTransmitterFilter::Evidence moving_evidence =
+        MovingTransmitterFilter::Evidence::kLoudPlaces;
+    MagneticSurvey::Options magnetic{};
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
   };
 
-  /// `parts`: floors and frames; its radio map is ignored. `options` must be valid.
+  /// `parts`: floors and frames; their maps are ignored. `options` must be valid.
   MapBuilder(site::SiteParts parts, const Options& options);
 
   void add(const SurveyedRecording& recording);
@@ -91,6 +97,7 @@ class MapBuilder {
   Options options_;
   QualityReport quality_;
   MovingTransmitterFilter moving_;
+  MagneticSurvey magnetic_;
   std::vector<Instance> instances_;
   std::vector<std::vector<LabelledPath::Stretch>> stretches_;  ///< Per floor.
   std::vector<std::set<std::uint32_t>> recordings_on_floor_;

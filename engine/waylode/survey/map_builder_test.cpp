@@ -104,6 +104,21 @@ TEST(MapBuilder, PutsFingerprintsWhereTheirSignalsWereHeard) {
   EXPECT_EQ(built->quality.floors.at(1).fingerprints, 0U);
 }
 
+TEST(MapBuilder, MapsTheFieldWhereItWasMeasured) {
+  MapBuilder builder(two_floors(), options());
+  const auto time = device_time_from_seconds(4.0);
+  builder.add(ten_seconds_east(
+      {sample::AccelerometerSample{time, Vector3(0.0, 0.0, pdr::kStandardGravity_mps2)},
+       sample::MagnetometerSample{time, Vector3(15.0, 20.0, -42.0), 3},
+       scan(4.0, {heard(1, -50.0F, 4.0)})},
+      "F2"));
+  const auto built = builder.build();
+  ASSERT_TRUE(built);
+  ASSERT_EQ(built->parts.magnetic_map.points.size(), 1U);
+  EXPECT_EQ(built->parts.magnetic_map.points[0],
+            (site::MagneticPoint{6.0F, 5.0F, 25.0F, -42.0F, 0.0F, 1, 1}));
+}
+
 TEST(MapBuilder, DropsWhatWasHeardBeforeTheFirstMark) {
   MapBuilder builder(two_floors(), options());
   builder.add(ten_seconds_east({scan(1.0, {heard(1, -50.0F, -0.5), heard(2, -60.0F, 0.5)})}));
@@ -136,6 +151,18 @@ TEST(MapBuilder, KeepsWhatOneRecordingRepeats) {
   ASSERT_TRUE(built);
   EXPECT_EQ(built->quality.readings_duplicate, 0U);
   EXPECT_EQ(built->parts.radio_map.fingerprints.size(), 2U);
+}
+
+TEST(MapBuilder, DropsWhatIsToldTwiceForTheSameTime) {
+  MapBuilder builder(two_floors(), options());
+  builder.add(ten_seconds_east({scan(4.0, {heard(1, -50.0F, 3.0)}),
+                                scan(4.0, {heard(1, -50.0F, 3.5), heard(2, -60.0F, 4.0)}),
+                                scan(6.0, {heard(1, -50.0F, 6.0)})}));
+  const auto built = builder.build();
+  ASSERT_TRUE(built);
+  EXPECT_EQ(built->quality.readings_duplicate, 1U);
+  EXPECT_EQ(built->parts.radio_map.fingerprints.size(), 3U);
+  EXPECT_EQ(built->parts.radio_map.view().postings_of(TransmitterId::wifi(1)).size(), 2U);
 }
 
 TEST(MapBuilder, RespectsThoseWhoAskNotToBeMapped) {
@@ -305,6 +332,7 @@ TEST(MapBuilder, RefusesTheOptionsOfAnyPart) {
   EXPECT_TRUE(refused([](auto& o) { o.pdr.step_heading_sigma_rad = 0.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.labels.fastest_mps = 0.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.moving.farthest_m = 0.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.magnetic.spacing_m = 0.0; }));
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ inline constexpr std::string_view kFingerprintSection = "radio.fingerprints";
 inline constexpr std::string_view kTransmitterSection = "radio.transmitters";
 inline constexpr std::string_view kPostingBeginSection = "radio.posting_begin";
 inline constexpr std::string_view kPostingSection = "radio.postings";
+inline constexpr std::string_view kMagneticSection = "magnetic.points";  ///< May be missing.
 
 std::uint32_t header_crc(BundleHeader header);
 

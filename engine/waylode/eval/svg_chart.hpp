@@ -8,7 +8,7 @@
 
 #include "waylode/core/geometry.hpp"
 
-namespace waylode::eval::detail {
+namespace waylode::eval {
 
 /// One method's line.
 struct Series {
@@ -16,21 +16,28 @@ struct Series {
   std::string name;
   std::vector<core::Vector2> points;  ///< In the axes' units, x ascending.
   bool with_dots = false;
+  bool with_line = true;
+  std::vector<double> half_widths{};  ///< Of vertical error bars, per point; empty for none.
 };
 
 struct Axis {
   std::string label;  ///< With its unit.
   std::string unit;   ///< For the hover readout.
-  double max = 1.0;   ///< Axes start at 0.
+  double max = 1.0;
   double tick = 1.0;
+  double min = 0.0;  ///< A multiple of `tick`, below `max`.
 };
+
+/// An axis over [least, most] widened to whole ticks, about `ticks` of them.
+Axis axis_over(double least, double most, int ticks, std::string label, std::string unit);
 
 struct LineChart {
   std::string title;
   Axis x;
   Axis y;
   std::vector<double> y_guides;  ///< Dashed lines across the plot.
-  bool with_diagonal = false;    ///< From the origin to (x.max, y.max).
+  bool with_diagonal = false;    ///< From the lower left corner to (x.max, y.max).
+  bool equal_scales = false;     ///< A plan: one metre is as long on both axes.
   std::vector<Series> series;
 };
 
@@ -43,4 +50,4 @@ double nice_step(double range, int count);
 /// "c<colour> k<dash>": the classes that give a method its look.
 std::string method_classes(std::size_t method);
 
-}  // namespace waylode::eval::detail
+}  // namespace waylode::eval

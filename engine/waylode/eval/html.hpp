@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace waylode::eval::detail {
+namespace waylode::eval {
 
 /// Text that is safe between tags and inside quoted attributes. Control characters become spaces.
 std::string escape_html(std::string_view text);
@@ -16,4 +16,4 @@ std::string html_number(double value, int digits);
 /// Like html_number with trailing zeros dropped and no negative zero: coordinates of a drawing.
 std::string coordinate(double value);
 
-}  // namespace waylode::eval::detail
+}  // namespace waylode::eval
