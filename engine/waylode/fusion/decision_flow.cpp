@@ -28,6 +28,10 @@ DecisionFlow::DecisionFlow(const Options& options) : options_(options), filter_(
 
 void DecisionFlow::start(const PlanarEstimate& place) {
   filter_.start(place);
+  begin(place);
+}
+
+void DecisionFlow::begin(const PlanarEstimate& place) {
   walked_ = place;
   last_fix_ = place.time;
   path_.clear();
@@ -49,16 +53,17 @@ bool DecisionFlow::add(const observation::MotionDelta& motion) {
 std::optional<DecisionFlow::Comparison> DecisionFlow::add(const PlanarMeasurement& fix) {
   if (!detail::is_sound(fix)) return std::nullopt;
   if (!started()) {
-    start({fix.delivered, fix.position_m, fix.covariance_m2});
+    filter_.add(fix);
+    begin(filter_.at(fix.delivered));
     return Comparison{};
   }
   if (fix.delivered < last_fix_) return std::nullopt;
   last_fix_ = fix.delivered;
   if (options_.mode == DecisionMode::kWuLiteral) return compare_literally(fix);
 
-  const core::Vector2 walked_m = filter_.at(filter_.time()).position_m;
-  const core::Vector2 fixed_m = fix.position_m + path_.since_m(fix.measured);
-  Comparison result{(fixed_m - walked_m).norm()};
+  const core::Vector2 walked_m =
+      filter_.filter().mean().head<2>() + filter_.walked_offset_m(fix.measured);
+  Comparison result{(fix.position_m - walked_m).norm()};
   const bool is_large = result.difference_m > options_.threshold_m;
   if (options_.mode == DecisionMode::kEveryFix || is_large) {
     result.corrected = filter_.add(fix).has_value();
@@ -70,7 +75,7 @@ std::optional<DecisionFlow::Comparison> DecisionFlow::add(const PlanarMeasuremen
 // between the means of the walked and of the fingerprint positions.
 DecisionFlow::Comparison DecisionFlow::compare_literally(const PlanarMeasurement& fix) {
   walked_.time = std::max(walked_.time, fix.delivered);
-  differences_m_.push_back(fix.position_m + path_.since_m(fix.measured) - walked_.position_m);
+  differences_m_.push_back(fix.position_m - path_.offset_m(fix.measured) - walked_.position_m);
   if (differences_m_.size() > static_cast<std::size_t>(options_.pairs)) differences_m_.pop_front();
   Comparison result{differences_m_.back().norm()};
   if (result.difference_m <= options_.threshold_m) return result;
@@ -93,7 +98,7 @@ PlanarEstimate DecisionFlow::at(core::DeviceTime time) const {
   if (options_.mode != DecisionMode::kWuLiteral) return filter_.at(time);
   PlanarEstimate result = walked_;
   result.time = time;
-  result.position_m += path_.beyond_m(time);
+  result.position_m += path_.offset_m(time);
   const double waited_s = std::max(0.0, core::to_seconds(time - walked_.time));
   result.covariance_m2 += std::pow(options_.filter.position_walk_m_per_sqrt_s, 2) * waited_s *
                           core::Matrix2::Identity();

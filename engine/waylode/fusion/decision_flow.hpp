@@ -56,6 +56,7 @@ class DecisionFlow {
   const StepPositionFilter& filter() const { return filter_; }
 
  private:
+  void begin(const PlanarEstimate& place);
   Comparison compare_literally(const PlanarMeasurement& fix);
 
   Options options_;

@@ -28,7 +28,7 @@ core::Matrix2 covariance_of(const StepPositionFilter& filter) {
 
 /// A match of the past, walked on.
 PlanarEstimate carried(const PlanarMeasurement& match, const StepPositionFilter& filter) {
-  return {match.delivered, match.position_m + filter.walked_since_m(match.measured),
+  return {match.delivered, match.position_m - filter.walked_offset_m(match.measured),
           match.covariance_m2};
 }
 
@@ -181,7 +181,10 @@ bool FeedbackTracker::correct(std::span<const std::optional<CircleMatch>> found)
     }
     newest = std::max(newest, found[i]->position.delivered);
     track.log_score += options_.circle_score * found[i]->log_likelihood;
-    correct(track, *found[i]);
+    PlanarMeasurement match = found[i]->position;
+    match.covariance_m2 *= std::pow(options_.circle_sigma_scale, 2);
+    match.covariance_m2 += std::pow(options_.circle_floor_sigma_m, 2) * core::Matrix2::Identity();
+    correct(track, match);
   }
   last_radio_ = newest;
   rank();
@@ -189,8 +192,8 @@ bool FeedbackTracker::correct(std::span<const std::optional<CircleMatch>> found)
 }
 
 // [Zhao2019] 2.3, what follows eq. (17).
-void FeedbackTracker::correct(Track& track, const CircleMatch& match) const {
-  const PlanarEstimate place = carried(match.position, track.filter);
+void FeedbackTracker::correct(Track& track, const PlanarMeasurement& match) const {
+  const PlanarEstimate place = carried(match, track.filter);
   switch (options_.reading) {
     case FeedbackReading::kOpenLoop:
       track.answer = place;
@@ -206,14 +209,9 @@ void FeedbackTracker::correct(Track& track, const CircleMatch& match) const {
            rest * rest * covariance_of(track.filter) + share * share * place.covariance_m2});
       break;
     }
-    case FeedbackReading::kFiltered: {
-      PlanarMeasurement measurement = match.position;
-      measurement.covariance_m2 *= std::pow(options_.circle_sigma_scale, 2);
-      measurement.covariance_m2 +=
-          std::pow(options_.circle_floor_sigma_m, 2) * core::Matrix2::Identity();
-      track.filter.add_unbiased(measurement);
+    case FeedbackReading::kFiltered:
+      track.filter.add_unbiased(match);
       break;
-    }
   }
 }
 
@@ -233,12 +231,27 @@ void FeedbackTracker::rank() {
 
 PlanarEstimate FeedbackTracker::at(core::DeviceTime time) const {
   WAYLODE_ASSERT(started());
-  const Track& best = tracks_.front();
-  PlanarEstimate walked = best.filter.at(time);
-  if (!best.answer) return walked;
+  PlanarEstimate result = answer_of(tracks_.front(), time);
+  // Other hypotheses are doubt about the best one.
+  double weights = 1.0;
+  core::Matrix2 weighted_m2 = result.covariance_m2;
+  for (std::size_t i = 1; i < tracks_.size(); ++i) {
+    const double weight = std::exp(tracks_[i].log_score - tracks_.front().log_score);
+    const PlanarEstimate other = answer_of(tracks_[i], time);
+    const core::Vector2 off_m = other.position_m - result.position_m;
+    weights += weight;
+    weighted_m2 += weight * (other.covariance_m2 + off_m * off_m.transpose());
+  }
+  result.covariance_m2 = weighted_m2 / weights;
+  return result;
+}
+
+PlanarEstimate FeedbackTracker::answer_of(const Track& track, core::DeviceTime time) {
+  const PlanarEstimate walked = track.filter.at(time);
+  if (!track.answer) return walked;
   // The steps since the match lead on from it.
-  const core::Vector2 beyond_m = walked.position_m - position_of(best.filter);
-  return {time, best.answer->position_m + beyond_m, best.answer->covariance_m2};
+  const core::Vector2 beyond_m = walked.position_m - position_of(track.filter);
+  return {time, track.answer->position_m + beyond_m, track.answer->covariance_m2};
 }
 
 }  // namespace waylode::fusion

@@ -46,12 +46,12 @@ class FeedbackTracker {
     double blend_ratio = 0.4;  ///< kBlended: share of the radio position; 0 to 1.
     /// A whole-map fix disagrees when its chi-square distance (two degrees of freedom) exceeds
     /// this; > 0, infinite for no guard.
-    double guard_gate = 9.21;
-    int guard_failures = 4;     ///< Disagreements among the newest `guard_window` that start anew.
-    int guard_window = 6;       ///< >= guard_failures >= 1, at most 100.
+    double guard_gate = 5.99;
+    int guard_failures = 3;     ///< Disagreements among the newest `guard_window` that start anew.
+    int guard_window = 5;       ///< >= guard_failures >= 1, at most 100.
     bool use_whole_map = true;  ///< kFiltered: whole-map fixes are measurements too.
-    double circle_sigma_scale = 1.0;    ///< kFiltered: on a circle match's own sigma; > 0.
-    double circle_floor_sigma_m = 0.5;  ///< kFiltered: what that sigma does not know of; >= 0.
+    double circle_sigma_scale = 1.0;    ///< On a circle match's own sigma; > 0.
+    double circle_floor_sigma_m = 0.5;  ///< What that sigma does not know of; >= 0.
     // Several hypotheses.
     int hypotheses = 1;              ///< Starts followed side by side; 1 to 16.
     double whole_map_score = 0.5;    ///< Power of the whole-map fixes' likelihood; >= 0.
@@ -85,7 +85,8 @@ class FeedbackTracker {
   /// False, and nothing changes: another number of entries, or one not sound or too old.
   bool correct(std::span<const std::optional<CircleMatch>> found);
 
-  /// Of the best hypothesis, carried to `time`. Something has started.
+  /// The best hypothesis, carried to `time`; the others widen its covariance by their scores.
+  /// Something has started.
   PlanarEstimate at(core::DeviceTime time) const;
   /// How often the guard has begun anew.
   int restarts() const { return restarts_; }
@@ -98,7 +99,8 @@ class FeedbackTracker {
     std::deque<bool> doubts;  ///< Of the newest whole-map fixes.
   };
 
-  void correct(Track& track, const CircleMatch& match) const;
+  static PlanarEstimate answer_of(const Track& track, core::DeviceTime time);
+  void correct(Track& track, const PlanarMeasurement& match) const;
   void compare(Track& track, const PlanarMeasurement& whole_map) const;
   void begin_anew(const PlanarMeasurement& whole_map);
   void rank();

@@ -27,19 +27,22 @@ void PathMemory::add(const observation::MotionDelta& motion) {
   last_ = motion;
 }
 
-core::Vector2 PathMemory::since_m(core::DeviceTime time) const {
-  if (points_.empty() || time >= points_.back().time) return core::Vector2::Zero();
+core::Vector2 PathMemory::offset_m(core::DeviceTime time) const {
+  if (!last_) return core::Vector2::Zero();
+  return time < last_->end ? back_m(time) : beyond_m(time);
+}
+
+core::Vector2 PathMemory::back_m(core::DeviceTime time) const {
   const core::Vector2& newest_m = points_.back().path_m;
   const auto after = std::ranges::lower_bound(points_, time, {}, &Point::time);
-  if (after == points_.begin()) return newest_m - after->path_m;
+  if (after == points_.begin()) return after->path_m - newest_m;
   const auto before = std::prev(after);
   const double span_s = core::to_seconds(after->time - before->time);
   const double share = span_s > 0.0 ? core::to_seconds(time - before->time) / span_s : 1.0;
-  return newest_m - (before->path_m + share * (after->path_m - before->path_m));
+  return before->path_m + share * (after->path_m - before->path_m) - newest_m;
 }
 
 core::Vector2 PathMemory::beyond_m(core::DeviceTime time) const {
-  if (!last_) return core::Vector2::Zero();
   const double step_s = core::to_seconds(last_->end - last_->begin);
   const double since_s = core::to_seconds(time - last_->end);
   if (since_s <= 0.0 || since_s > 2.0 * step_s) return core::Vector2::Zero();

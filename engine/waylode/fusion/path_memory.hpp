@@ -19,18 +19,19 @@ class PathMemory {
  public:
   /// `motion` is finite, does not end before it begins nor before the last one ended.
   void add(const observation::MotionDelta& motion);
-  /// From where the walker was at `time` to where the last step ended; from the oldest point known
-  /// when `time` is older. Zero after the last step. Between the ends of a step the way is
-  /// straight.
-  core::Vector2 since_m(core::DeviceTime time) const;
-  /// Where a walker in mid-step is beyond the end of the last one: on as before for one step's
-  /// time, still there for as long again, and at the end of the last step when no step came.
-  core::Vector2 beyond_m(core::DeviceTime time) const;
+  /// Where the walker is at `time`, seen from the end of the last step. Before it: back along the
+  /// way, straight between the ends of a step, to the oldest point known. After it, since a step is
+  /// told when complete: on as before for one step's time, still there for as long again, and back
+  /// at the end of the last step when no step came.
+  core::Vector2 offset_m(core::DeviceTime time) const;
   /// No step, or the last one ended by `time`.
   bool is_in_order(core::DeviceTime time) const { return !last_ || last_->end <= time; }
   void clear();
 
  private:
+  core::Vector2 back_m(core::DeviceTime time) const;
+  core::Vector2 beyond_m(core::DeviceTime time) const;
+
   struct Point {
     core::DeviceTime time;
     core::Vector2 path_m;

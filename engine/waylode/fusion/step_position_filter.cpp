@@ -42,10 +42,9 @@ State moved(const State& state, const core::Vector2& pdr_m, double bias_kept) {
   return result;
 }
 
-/// Where a scan puts the walker that was in the air `pdr_since_m` ago.
-core::Vector2 expected_position_m(const State& state, const core::Vector2& pdr_since_m,
-                                  bool biased) {
-  const core::Vector2 place_m = state.head<2>() - as_walked(pdr_since_m, state);
+/// What a scan reads that was in the air when the walker was `pdr_m` from the state's place.
+core::Vector2 expected_position_m(const State& state, const core::Vector2& pdr_m, bool biased) {
+  const core::Vector2 place_m = state.head<2>() + as_walked(pdr_m, state);
   return biased ? core::Vector2(place_m + state.segment<2>(kBias)) : place_m;
 }
 
@@ -182,10 +181,10 @@ std::optional<UnscentedUpdate> StepPositionFilter::update(const PlanarMeasuremen
   }
   if (measurement.delivered < last_delivery_) return std::nullopt;
   Filter filter = carried(*filter_, measurement.delivered - time_, options_);
-  const core::Vector2 since_m = path_.since_m(measurement.measured);
+  const core::Vector2 offset_m = path_.offset_m(measurement.measured);
   const auto update = filter.update<2>(
       measurement.position_m,
-      [&](const State& state) { return expected_position_m(state, since_m, biased); }, noise,
+      [&](const State& state) { return expected_position_m(state, offset_m, biased); }, noise,
       options_.gate);
   if (!update) return std::nullopt;
   filter_ = filter;
@@ -193,8 +192,8 @@ std::optional<UnscentedUpdate> StepPositionFilter::update(const PlanarMeasuremen
   time_ = std::max(time_, measurement.delivered);
   if (biased && is_lost(update->normalized_innovation_squared)) {
     // The heading was wrong, too: how far the way since leads is known, whereto is not.
-    const core::Matrix2 since_m2 = since_m.squaredNorm() * core::Matrix2::Identity();
-    begin({time_, measurement.position_m + since_m, noise + since_m2},
+    const core::Matrix2 offset_m2 = offset_m.squaredNorm() * core::Matrix2::Identity();
+    begin({time_, measurement.position_m - offset_m, noise + offset_m2},
           options_.lost_heading_sigma_rad);
     ++losses_;
   }
@@ -212,9 +211,9 @@ StepPositionFilter::Surprise StepPositionFilter::surprise(
     const PlanarMeasurement& measurement) const {
   WAYLODE_ASSERT(filter_ && detail::is_sound(measurement));
   const Filter filter = carried(*filter_, measurement.delivered - time_, options_);
-  const core::Vector2 since_m = path_.since_m(measurement.measured);
+  const core::Vector2 offset_m = path_.offset_m(measurement.measured);
   const core::Vector2 innovation_m =
-      measurement.position_m - expected_position_m(filter.mean(), since_m, true);
+      measurement.position_m - expected_position_m(filter.mean(), offset_m, true);
   // Of place and bias alone: the few steps since the scan add nothing that matters.
   Eigen::Matrix<double, 2, kStates> model = Eigen::Matrix<double, 2, kStates>::Zero();
   model.leftCols<2>().setIdentity();
@@ -233,13 +232,13 @@ core::Matrix2 StepPositionFilter::noise_m2(const PlanarMeasurement& measurement)
 PlanarEstimate StepPositionFilter::at(core::DeviceTime time) const {
   WAYLODE_ASSERT(filter_);
   const Filter filter = carried(*filter_, time - time_, options_);
-  return {time, filter.mean().head<2>() + as_walked(path_.beyond_m(time), filter.mean()),
+  return {time, filter.mean().head<2>() + as_walked(path_.offset_m(time), filter.mean()),
           filter.covariance().topLeftCorner<2, 2>()};
 }
 
-core::Vector2 StepPositionFilter::walked_since_m(core::DeviceTime time) const {
+core::Vector2 StepPositionFilter::walked_offset_m(core::DeviceTime time) const {
   WAYLODE_ASSERT(filter_);
-  return as_walked(path_.since_m(time), filter_->mean());
+  return as_walked(path_.offset_m(time), filter_->mean());
 }
 
 double StepPositionFilter::heading_offset_rad() const { return filter_->mean()(kHeading); }

@@ -55,7 +55,8 @@ class StepPositionFilter {
 
   /// Begins anew: steps that ended before are forgotten. Finite, the covariance valid.
   void start(const PlanarEstimate& place);
-  /// The same, keeping what is known of the heading offset and the step scale.
+  /// Corrects the place at the end of the last step, keeping what is known of the heading offset
+  /// and the step scale.
   void move_to(const PlanarEstimate& place);
   bool started() const { return filter_.has_value(); }
 
@@ -75,8 +76,9 @@ class StepPositionFilter {
   };
   Surprise surprise(const PlanarMeasurement& measurement) const;
 
-  /// The way since `time` as the state sees it, its heading and scale corrected.
-  core::Vector2 walked_since_m(core::DeviceTime time) const;
+  /// Where the walker is at `time`, seen from the end of the last step, as PathMemory tells it but
+  /// with heading and scale corrected.
+  core::Vector2 walked_offset_m(core::DeviceTime time) const;
   /// How often it was lost.
   int losses() const { return losses_; }
 

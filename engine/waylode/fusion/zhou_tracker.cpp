@@ -32,7 +32,7 @@ PolarVelocity sensed_velocity(const observation::MotionDelta& motion) {
 
 StepPositionFilter::Options ZhouTracker::Options::filter_defaults() {
   StepPositionFilter::Options options;
-  options.position_walk_m_per_sqrt_s = 0.35;
+  options.position_walk_m_per_sqrt_s = 0.5;
   options.radio_bias_sigma_m = 0.0;
   options.radio_sigma_scale = 1.0;
   options.gate = 4.0;
@@ -108,7 +108,7 @@ bool ZhouTracker::add_radio(const PlanarMeasurement& measurement) {
   main_.add(measurement);
   if (main_.losses() > losses) main_ = reference_;
   wifi_ = PlanarEstimate{measurement.delivered,
-                         measurement.position_m + path_.since_m(measurement.measured),
+                         measurement.position_m - path_.offset_m(measurement.measured),
                          measurement.covariance_m2};
   correct_blend(measurement.delivered);
   return true;
@@ -128,7 +128,7 @@ bool ZhouTracker::begins_with(const PlanarMeasurement& measurement) {
   last_radio_ = measurement.delivered;
   ++start_count_;
   const double share = 1.0 / start_count_;
-  const core::Vector2 place_m = measurement.position_m + path_.since_m(measurement.measured);
+  const core::Vector2 place_m = measurement.position_m - path_.offset_m(measurement.measured);
   start_mean_.position_m += share * (place_m - start_mean_.position_m);
   start_mean_.covariance_m2 += share * (measurement.covariance_m2 - start_mean_.covariance_m2);
   start_mean_.time = measurement.delivered;
@@ -143,22 +143,26 @@ bool ZhouTracker::begins_with(const PlanarMeasurement& measurement) {
 bool ZhouTracker::add_magnetic(const PlanarEstimate& place) {
   if (!started() || !detail::is_sound(place) || place.time < last_magnetic_) return false;
   last_magnetic_ = place.time;
-  magnetic_ = place;
-  magnetic_->position_m += path_.since_m(place.time);
-  correct_blend(place.time);
-
-  PlanarMeasurement measurement{place.time, place.time, place.position_m, place.covariance_m2};
+  PlanarMeasurement measurement{place.time, std::max(place.time, last_radio_), place.position_m,
+                                place.covariance_m2};
   measurement.covariance_m2 *= std::pow(options_.magnetic_sigma_scale, 2);
   measurement.covariance_m2 +=
       std::pow(options_.magnetic_floor_sigma_m, 2) * core::Matrix2::Identity();
-  const PlanarEstimate expected = reference_.at(std::max(place.time, reference_.time()));
-  const core::Vector2 off_m =
-      place.position_m + reference_.walked_since_m(place.time) - expected.position_m;
-  const double chi_square =
-      core::squared_mahalanobis(off_m, expected.covariance_m2 + measurement.covariance_m2);
-  if (chi_square > options_.magnetic_gate) return false;
-  measurement.delivered = std::max(place.time, last_radio_);
+  magnetic_.reset();
+  if (contradicts_wifi(measurement)) return false;
+  magnetic_ = place;
+  magnetic_->position_m -= path_.offset_m(place.time);
+  correct_blend(place.time);
   return main_.add_unbiased(measurement).has_value();
+}
+
+bool ZhouTracker::contradicts_wifi(const PlanarMeasurement& magnetic) const {
+  const core::Vector2 expected_m =
+      reference_.filter().mean().head<2>() + reference_.walked_offset_m(magnetic.measured);
+  const core::Matrix2 expected_m2 =
+      reference_.at(std::max(magnetic.delivered, reference_.time())).covariance_m2;
+  return core::squared_mahalanobis(magnetic.position_m - expected_m,
+                                   expected_m2 + magnetic.covariance_m2) > options_.magnetic_gate;
 }
 
 // [Zhou2016] eqs. (14) to (17).
@@ -202,7 +206,9 @@ void ZhouTracker::correct_blend(core::DeviceTime time) {
   blended_.position_m += share * (weighted_point_->position_m - blended_.position_m);
   blended_.covariance_m2 =
       rest * rest * blended_.covariance_m2 + share * share * weighted_point_->covariance_m2;
-  velocity_filter_.add(blended_);
+  PlanarEstimate now = blended_;
+  now.position_m += path_.offset_m(now.time);
+  velocity_filter_.add(now);
 }
 
 PlanarEstimate ZhouTracker::at(core::DeviceTime time) const {
@@ -211,7 +217,7 @@ PlanarEstimate ZhouTracker::at(core::DeviceTime time) const {
   const core::DeviceTime newest = options_.filter_blend ? velocity_filter_.time() : blended_.time;
   const core::DeviceTime coasted = std::min(time, newest + core::from_seconds(kCoast_s));
   PlanarEstimate result = options_.filter_blend ? velocity_filter_.at(coasted) : blended_;
-  if (!options_.filter_blend) result.position_m += path_.beyond_m(time);
+  if (!options_.filter_blend) result.position_m += path_.offset_m(time);
   result.time = time;
   const double waited_s = std::max(0.0, core::to_seconds(time - newest));
   result.covariance_m2 += std::pow(options_.filter.position_walk_m_per_sqrt_s, 2) * waited_s *

@@ -20,8 +20,8 @@ namespace waylode::fusion {
 /// Wi-Fi, magnetic field and steps in one plane [Zhou2016] 2: begin by Wi-Fi, walk by steps,
 /// correct by the weighted Wi-Fi and magnetic point, filter. With `robust_filter` one filter takes
 /// the three as they are instead: the errors of blends and of smoothed points are not white. Beside
-/// it runs a filter of Wi-Fi and steps alone, which a magnetic position must not contradict: a
-/// matcher that has slipped to another place fits well there. Causal.
+/// either runs a filter of Wi-Fi and steps alone, which a magnetic position must not contradict: a
+/// matcher that has slipped to another place fits well there, too. Causal.
 ///
 /// Steps come in the order of their ends, positions in the order of their delivery.
 class ZhouTracker {
@@ -31,6 +31,11 @@ class ZhouTracker {
     double start_within_s = 4.0;  ///< From the first of them; >= 0.
     bool robust_filter = false;
 
+    double magnetic_sigma_scale = 1.5;    ///< > 0; successive matches share most of their window.
+    double magnetic_floor_sigma_m = 0.5;  ///< What a magnetic sigma does not know of; >= 0.
+    /// Chi-square distance from Wi-Fi and steps beyond which a magnetic position is left; > 0.
+    double magnetic_gate = 9.21;
+
     // Blends and a filter behind them, as published.
     IntervalWeighting::Options weighting;
     VelocityBlend::Options blend;
@@ -39,10 +44,7 @@ class ZhouTracker {
     bool filter_blend = true;       ///< The constant-velocity filter.
     ConstantVelocityFilter::Options velocity_filter;
 
-    // The robust filter.
-    double magnetic_sigma_scale = 1.5;    ///< > 0; successive matches share most of their window.
-    double magnetic_floor_sigma_m = 0.5;  ///< What a magnetic sigma does not know of; >= 0.
-    double magnetic_gate = 9.21;  ///< Chi-square to Wi-Fi and steps beyond which one is left; > 0.
+    /// The robust filter, and the one of Wi-Fi and steps.
     StepPositionFilter::Options filter = filter_defaults();
 
     static StepPositionFilter::Options filter_defaults();
@@ -72,6 +74,7 @@ class ZhouTracker {
  private:
   void begin(const PlanarEstimate& place);
   bool begins_with(const PlanarMeasurement& measurement);
+  bool contradicts_wifi(const PlanarMeasurement& magnetic) const;
   void blend_step(const observation::MotionDelta& motion);
   void correct_blend(core::DeviceTime time);
   PolarVelocity fused_velocity() const;

@@ -22,9 +22,9 @@ class Regression {
   using Regressor = std::variant<RelevanceVectorRegression, SupportVectorRegression>;
 
   struct Options {
-    InputScaler::Options scaler;
+    InputScaler::Options scaler{};
     /// Which kind of regressor, and how it is trained.
-    std::variant<RelevanceVectorRegression::Options, SupportVectorRegression::Options> regressor;
+    std::variant<RelevanceVectorRegression::Options, SupportVectorRegression::Options> regressor{};
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;

@@ -23,8 +23,8 @@ struct Prediction {
 class RelevanceVectorRegression {
  public:
   struct Options {
-    Kernel::Options kernel;
-    SparseBayesFit::Options fit;
+    Kernel::Options kernel{};
+    SparseBayesFit::Options fit{};
     bool bias = true;  ///< The column of ones, w_0, with a precision of its own.
     /// The targets' mean is taken off first, and put back: w_0 has not to reach far from zero.
     bool centre_targets = true;
@@ -35,7 +35,7 @@ class RelevanceVectorRegression {
 
   /// What a trained model consists of, to be saved.
   struct Model {
-    Kernel::Options kernel;
+    Kernel::Options kernel{};
     double offset = 0.0;         ///< Added to every mean.
     bool has_bias = false;       ///< Whether the first weight is w_0.
     Eigen::MatrixXd vectors;     ///< Relevance vectors, one a row, as scaled for training.

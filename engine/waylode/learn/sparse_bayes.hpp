@@ -31,13 +31,15 @@ SparseBayesPosterior sparse_bayes_posterior(const Eigen::MatrixXd& design,
 /// without, as their precision grows beyond all bounds, are left out.
 struct SparseBayesFit {
   struct Options {
-    std::size_t max_iterations = 500;  ///< At least 1.
-    double tolerance = 1e-2;           ///< Stop when no log alpha moves by more; in (0, 1].
+    std::size_t max_iterations = 5'000;  ///< At least 1; cheap once columns are few.
+    double tolerance = 1e-2;             ///< Stop when no log alpha moves by more; in (0, 1].
     /// Columns are left out when alpha exceeds this, where the column has a largest magnitude of 1
     /// and the targets a mean square of 1. In (1, 1e12].
-    double prune_above = 1e8;
-    /// All alphas to begin with, in the same scale; in [1e-9, 1e3].
-    double start_precision = 1e-2;
+    double prune_above = 1e6;
+    /// All alphas to begin with, in the same scale; in [1e-9, 1e3]. Much below 1, noise is fitted
+    /// first and the many columns that takes are not all let go: weights less sparse, sigma too
+    /// small.
+    double start_precision = 1.0;
     /// Noise variance to begin with, as a share of the targets' mean square; in (0, 10].
     double start_noise_ratio = 0.1;
     /// The noise's sigma never falls below, in the targets' unit; in [1e-9, 1e9].

@@ -5,10 +5,60 @@
 #include <cmath>
 
 namespace waylode::pdr {
+namespace {
+
+using Detector = DeadReckoning::Detector;
+
+// After a pause nobody knows when the step began: an ordinary step's duration is taken.
+constexpr double kOrdinaryStep_s = 0.6;
+
+std::unique_ptr<StepSource> make_detector(const DeadReckoning::Options& options) {
+  switch (options.detector) {
+    case Detector::kThreshold:
+      return std::make_unique<StepDetector>(options.step);
+    case Detector::kCadence:
+      return std::make_unique<CadenceStepDetector>(options.cadence);
+    case Detector::kAdaptivePeaks:
+      return std::make_unique<AdaptivePeakDetector>(options.adaptive_peaks);
+    case Detector::kGaussianPeaks:
+      return std::make_unique<GaussianPeakDetector>(options.gaussian_peaks);
+    case Detector::kExtrema:
+      return std::make_unique<ExtremumStepDetector>(options.extrema);
+  }
+  return std::make_unique<StepDetector>(options.step);
+}
+
+double longest_interval_s(const DeadReckoning::Options& options) {
+  switch (options.detector) {
+    case Detector::kThreshold:
+      return options.step.longest_interval_s;
+    case Detector::kCadence:
+      return options.cadence.pause_s;
+    case Detector::kAdaptivePeaks:
+      return options.adaptive_peaks.longest_interval_s;
+    case Detector::kGaussianPeaks:
+      return options.gaussian_peaks.longest_interval_s;
+    case Detector::kExtrema:
+      return options.extrema.longest_interval_s;
+  }
+  return options.step.longest_interval_s;
+}
+
+StepValidity::Options validity_options(const DeadReckoning::Options& options) {
+  StepValidity::Options validity = options.step_validity;
+  validity.rule = options.validity == DeadReckoning::Validity::kLiteral
+                      ? StepValidity::Rule::kLiteral
+                      : StepValidity::Rule::kThreeWay;
+  return validity;
+}
+
+}  // namespace
 
 core::Result<void> DeadReckoning::Options::validate() const {
   for (const core::Result<void>& part :
-       {gravity.validate(), heading.validate(), step.validate(), stride.validate()}) {
+       {gravity.validate(), heading.validate(), step.validate(), stride.validate(),
+        cadence.validate(), adaptive_peaks.validate(), gaussian_peaks.validate(),
+        extrema.validate(), step_validity.validate(), compass.validate()}) {
     if (!part) return part;
   }
   if (!(step_heading_sigma_rad > 0.0 && step_length_sigma_ratio > 0.0)) {
@@ -22,20 +72,32 @@ DeadReckoning::DeadReckoning(const Options& options)
     : options_(options),
       gravity_(options.gravity),
       heading_(options.heading),
-      steps_(options.step),
+      compass_(options.compass),
+      longest_interval_s_(longest_interval_s(options)),
+      steps_(make_detector(options)),
+      validity_(validity_options(options)),
       stride_(options.stride) {}
+
+std::optional<double> DeadReckoning::heading_rad() const {
+  return options_.heading_source == HeadingSource::kCompass ? compass_.heading_rad()
+                                                            : heading_.heading_rad();
+}
 
 std::optional<observation::MotionDelta> DeadReckoning::add(const sample::Sample& sample) {
   if (const auto* acceleration = std::get_if<sample::AccelerometerSample>(&sample)) {
     return add_accelerometer(*acceleration);
   }
+  const bool is_compass = options_.heading_source == HeadingSource::kCompass;
+  const std::optional<core::Vector3>& up = gravity_.up_in_device();
   if (const auto* rotation = std::get_if<sample::RotationSample>(&sample)) {
-    heading_.add(*rotation);
+    if (!is_compass) heading_.add(*rotation);
   } else if (const auto* rate = std::get_if<sample::GyroscopeSample>(&sample)) {
     gravity_.add(*rate);
-    if (gravity_.up_in_device()) heading_.add(*rate, *gravity_.up_in_device());
+    if (up && is_compass) compass_.add(*rate, *up);
+    if (up && !is_compass) heading_.add(*rate, *up);
   } else if (const auto* field = std::get_if<sample::MagnetometerSample>(&sample)) {
-    if (gravity_.up_in_device()) heading_.add(*field, *gravity_.up_in_device());
+    if (up && is_compass) compass_.add(*field, *up);
+    if (up && !is_compass) heading_.add(*field, *up);
   }
   return std::nullopt;
 }
@@ -43,41 +105,88 @@ std::optional<observation::MotionDelta> DeadReckoning::add(const sample::Sample&
 std::optional<observation::MotionDelta> DeadReckoning::add_accelerometer(
     const sample::AccelerometerSample& sample) {
   gravity_.add(sample);
-  if (heading_.heading_rad()) remember_heading(sample.time);
+  const std::optional<double> heading_rad = this->heading_rad();
+  if (heading_rad) remember_heading(sample.time, *heading_rad);
   if (!gravity_.up_in_device()) return std::nullopt;
   const double vertical_mps2 =
       sample.specific_force_mps2.dot(*gravity_.up_in_device()) - kStandardGravity_mps2;
-  const std::optional<Step> step = steps_.add(sample.time, vertical_mps2);
-  if (!step || !heading_.heading_rad()) return std::nullopt;
-  return motion_of(*step, sample.time);
+  const double norm_mps2 = sample.specific_force_mps2.norm() - kStandardGravity_mps2;
+  const auto judged = next_step({sample.time, vertical_mps2, norm_mps2});
+  if (!judged || !heading_rad) return std::nullopt;
+  observation::MotionDelta delta = motion_of(judged->step, sample.time);
+  if (judged->verdict == StepValidity::Verdict::kInPlace) {
+    delta.length_m = 0.0;
+    delta.stride = {};
+  }
+  return delta;
+}
+
+std::optional<StepValidity::Judged> DeadReckoning::next_step(const StepInput& input) {
+  const std::optional<Step> step = steps_->add(input);
+  if (options_.validity == Validity::kOff) {
+    return step ? std::optional(StepValidity::Judged{.step = *step}) : std::nullopt;
+  }
+  if (step) validity_.add_step(*step);
+  return validity_.take(input.time);
 }
 
 observation::MotionDelta DeadReckoning::motion_of(const Step& step, core::DeviceTime told) {
   observation::MotionDelta delta;
   delta.end = step.time;
   delta.begin = step.time - core::from_seconds(step.interval_s);
-  delta.length_m = stride_.length_m(step);
+  delta.length_m = length_m(step);
   delta.length_sigma_m = options_.step_length_sigma_ratio * delta.length_m;
-  // After a pause nobody knows when the step began: an ordinary step's duration is taken.
-  constexpr double kOrdinaryStep_s = 0.6;
-  const bool after_pause = step.interval_s >= options_.step.longest_interval_s;
-  core::Vector2 sum = core::Vector2::Zero();
-  for (const Direction& direction : directions_) {
-    const double age_s = core::to_seconds(told - direction.time);
-    if (!after_pause || age_s <= kOrdinaryStep_s) sum += direction.unit;
-  }
-  delta.heading_rad = std::atan2(sum.y(), sum.x());
+  delta.heading_rad = mean_heading_rad(step, told);
   delta.heading_sigma_rad = options_.step_heading_sigma_rad;
-  directions_.clear();
+  Step ordinary = step;
+  if (is_after_pause(step)) ordinary.interval_s = kOrdinaryStep_s;
+  delta.stride = stride_features(ordinary);
   return delta;
 }
 
-void DeadReckoning::remember_heading(core::DeviceTime time) {
-  const double heading_rad = *heading_.heading_rad();
+double DeadReckoning::length_m(const Step& step) {
+  const bool after_pause = is_after_pause(step);
+  Step measured = step;
+  if (after_pause && options_.stride.model != StrideModel::Model::kThreeTerm) {
+    measured.interval_s = kOrdinaryStep_s;
+  }
+  if (after_pause) last_interval_s_.reset();
+  const double length_m = stride_.length_m(measured, last_interval_s_);
+  last_interval_s_ = measured.interval_s;
+  return length_m;
+}
+
+double DeadReckoning::mean_heading_rad(const Step& step, core::DeviceTime told) {
+  // A step told at once is that of the directions since the one before was told. One told late, in
+  // the wait of StepValidity or with the first of a walk, has its own time.
+  const bool may_be_late =
+      options_.detector != Detector::kThreshold || options_.validity != Validity::kOff;
+  const bool is_late = may_be_late && core::to_seconds(told - step.time) > kOrdinaryStep_s;
+  const core::DeviceTime end = is_late ? step.time : told;
+  const double span_s = is_after_pause(step)
+                            ? kOrdinaryStep_s
+                            : (is_late ? step.interval_s : 2.0 * longest_interval_s_);
+  core::DeviceTime begin = end - core::from_seconds(span_s);
+  core::Vector2 sum = core::Vector2::Zero();
+  for (const Direction& direction : directions_) {
+    const bool is_told = !is_late && last_told_ && direction.time <= *last_told_;
+    if (direction.time >= begin && direction.time <= end && !is_told) sum += direction.unit;
+  }
+  last_told_ = told;
+  if (sum == core::Vector2::Zero()) sum = directions_.back().unit;
+  return std::atan2(sum.y(), sum.x());
+}
+
+bool DeadReckoning::is_after_pause(const Step& step) const {
+  return step.interval_s >= longest_interval_s_;
+}
+
+void DeadReckoning::remember_heading(core::DeviceTime time, double heading_rad) {
   directions_.push_back({time, core::Vector2(std::cos(heading_rad), std::sin(heading_rad))});
-  // Twice the longest step holds one that is confirmed late.
-  const core::Duration kept = core::from_seconds(2.0 * options_.step.longest_interval_s);
-  while (directions_.front().time < time - kept) directions_.pop_front();
+  // Twice the longest step holds one that is confirmed late, and the validity's wait one more.
+  const double kept_s = 2.0 * longest_interval_s_ + 2.0 * options_.step_validity.half_window_s;
+  while (directions_.front().time < time - core::from_seconds(kept_s)) directions_.pop_front();
+  if (options_.validity != Validity::kOff) validity_.add_heading(time, heading_rad);
 }
 
 }  // namespace waylode::pdr

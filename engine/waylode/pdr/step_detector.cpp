@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "waylode/core/angle.hpp"
-
 namespace waylode::pdr {
 
 core::Result<void> StepDetector::Options::validate() const {
@@ -22,14 +20,16 @@ core::Result<void> StepDetector::Options::validate() const {
   return {};
 }
 
-std::optional<Step> StepDetector::add(core::DeviceTime time, double vertical_mps2) {
-  const double value_mps2 = smooth(time, vertical_mps2);
+std::optional<Step> StepDetector::add(const StepInput& input) {
+  if (!std::isfinite(input.vertical_mps2)) return std::nullopt;
+  const double value_mps2 = smooth(input.time, input.vertical_mps2);
   lowest_mps2_ = std::min(lowest_mps2_, value_mps2);
+  sum_mps2_ += value_mps2;
   abs_sum_mps2_ += std::abs(value_mps2);
   ++count_;
   if (value_mps2 > peak_mps2_) {
     peak_mps2_ = value_mps2;
-    peak_time_ = time;
+    peak_time_ = input.time;
   }
   if (value_mps2 > 0.0) return std::nullopt;
 
@@ -46,15 +46,11 @@ double StepDetector::smooth(core::DeviceTime time, double vertical_mps2) {
   const bool gap = !last_sample_ || dt_s > options_.longest_interval_s;
   last_sample_ = time;
   if (gap) {
-    stage_one_mps2_ = stage_two_mps2_ = vertical_mps2;
+    low_pass_.restart(vertical_mps2);
     forget_extremes();
     return vertical_mps2;
   }
-  // Two first-order stages: the phase is nearly linear below the cut-off.
-  const double gain = 1.0 - std::exp(-2.0 * core::kPi * options_.low_pass_hz * dt_s);
-  stage_one_mps2_ += gain * (vertical_mps2 - stage_one_mps2_);
-  stage_two_mps2_ += gain * (stage_one_mps2_ - stage_two_mps2_);
-  return stage_two_mps2_;
+  return low_pass_.add(vertical_mps2, dt_s);
 }
 
 bool StepDetector::continues_walk() const {
@@ -70,6 +66,7 @@ double StepDetector::threshold_mps2() const {
 void StepDetector::forget_extremes() {
   lowest_mps2_ = 0.0;
   peak_mps2_ = 0.0;
+  sum_mps2_ = 0.0;
   abs_sum_mps2_ = 0.0;
   count_ = 0;
 }
@@ -79,6 +76,8 @@ Step StepDetector::take_step() {
   Step step;
   step.time = peak_time_;
   step.swing_mps2 = peak_mps2_ - lowest_mps2_;
+  step.lowest_mps2 = lowest_mps2_;
+  step.mean_mps2 = sum_mps2_ / static_cast<double>(count_);
   step.mean_abs_mps2 = abs_sum_mps2_ / static_cast<double>(count_);
   step.interval_s =
       walking ? core::to_seconds(peak_time_ - *last_step_) : options_.longest_interval_s;

@@ -6,13 +6,14 @@
 
 #include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/pdr/detail/low_pass.hpp"
 #include "waylode/pdr/step_source.hpp"
 
 namespace waylode::pdr {
 
 /// Finds footfalls in the vertical acceleration as it streams, with no look ahead: a peak is a step
 /// once the signal has fallen back through zero. The threshold follows the walker's own peaks.
-class StepDetector {
+class StepDetector final : public StepSource {
  public:
   struct Options {
     double low_pass_hz = 3.0;          ///< Cut-off of the smoothing; cadence is below 3 Hz.
@@ -25,10 +26,11 @@ class StepDetector {
     bool operator==(const Options&) const = default;
   };
 
-  explicit StepDetector(const Options& options) : options_(options) {}
+  explicit StepDetector(const Options& options)
+      : options_(options), low_pass_(options.low_pass_hz) {}
 
-  /// `vertical_mps2`: acceleration along up with gravity taken off. Times must not decrease.
-  std::optional<Step> add(core::DeviceTime time, double vertical_mps2);
+  /// Looks at the vertical acceleration alone. Values that are not finite are passed over.
+  std::optional<Step> add(const StepInput& input) override;
 
  private:
   double smooth(core::DeviceTime time, double vertical_mps2);
@@ -39,14 +41,14 @@ class StepDetector {
 
   Options options_;
   std::optional<core::DeviceTime> last_sample_;
-  double stage_one_mps2_ = 0.0;
-  double stage_two_mps2_ = 0.0;
+  detail::LowPass low_pass_;
   double recent_peak_mps2_ = 0.0;
   std::optional<core::DeviceTime> last_step_;
   // Extremes since the last step, and the peak that waits for its confirmation.
   double lowest_mps2_ = 0.0;
   double peak_mps2_ = 0.0;
   core::DeviceTime peak_time_;
+  double sum_mps2_ = 0.0;
   double abs_sum_mps2_ = 0.0;
   std::size_t count_ = 0;
 };

@@ -47,7 +47,7 @@ std::vector<Step> feed(StepDetector& detector, const Sinusoid& wave, double begi
     const double elapsed_s = i / wave.rate_hz;
     const double value = wave.amplitude_mps2 * std::sin(2.0 * pi * wave.frequency_hz * elapsed_s);
     const auto time = device_time_from_seconds(begin_s + elapsed_s);
-    if (const auto step = detector.add(time, value)) {
+    if (const auto step = detector.add({.time = time, .vertical_mps2 = value})) {
       EXPECT_LE(step->time, time);
       EXPECT_LE(core::to_seconds(time - step->time), 0.5 / wave.frequency_hz);
       steps.push_back(*step);
@@ -102,14 +102,16 @@ TEST(StepDetector, TellsNothingOfAPhoneAtRest) {
   core::Rng rng(5);
   constexpr double kNoise_mps2 = 0.2;
   for (int i = 0; i < 6'000; ++i) {
-    EXPECT_FALSE(detector.add(device_time_from_seconds(0.02 * i), kNoise_mps2 * rng.normal()));
+    EXPECT_FALSE(detector.add(
+        {.time = device_time_from_seconds(0.02 * i), .vertical_mps2 = kNoise_mps2 * rng.normal()}));
   }
 }
 
 TEST(StepDetector, ForgetsTheSignalBeforeAGap) {
   StepDetector detector(kOptions);
   double time_s = 0.0;
-  for (; time_s < 0.5; time_s += 0.02) detector.add(device_time_from_seconds(time_s), -8.0);
+  for (; time_s < 0.5; time_s += 0.02)
+    detector.add({.time = device_time_from_seconds(time_s), .vertical_mps2 = -8.0});
   const Sinusoid wave{2.0, 1.8, 50.0};
   const auto steps = feed(detector, wave, 30.0, 10.0);
   ASSERT_FALSE(steps.empty());
@@ -157,7 +159,8 @@ std::vector<std::pair<std::size_t, Step>> told(const std::vector<double>& values
   const auto begin = device_time_from_seconds(begin_s);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto time = begin + std::chrono::milliseconds(20 * i);
-    if (const auto step = detector.add(time, values[i])) steps.emplace_back(i, *step);
+    if (const auto step = detector.add({.time = time, .vertical_mps2 = values[i]}))
+      steps.emplace_back(i, *step);
   }
   return steps;
 }

@@ -43,6 +43,11 @@ void ScanAssembler::add(const sample::BleReading& reading) {
   while (advertisements_.front().time < reading.time - window) advertisements_.pop_front();
 }
 
+bool ScanAssembler::is_hotspot(const sample::WifiReading& reading) const {
+  return hotspots_ != nullptr && hotspots_->classify(reading.transmitter, reading.ssid).verdict ==
+                                     HotspotClassifier::Verdict::kMobile;
+}
+
 Query ScanAssembler::assemble(const sample::WifiScan& scan) const {
   struct Heard {
     core::DeviceTime time;
@@ -52,7 +57,7 @@ Query ScanAssembler::assemble(const sample::WifiScan& scan) const {
   std::vector<core::DeviceTime> heard_times;
   const core::Duration max_age = core::from_seconds(options_.max_age_s);
   for (const sample::WifiReading& reading : scan.readings) {
-    if (scan.time - reading.last_seen > max_age) continue;
+    if (scan.time - reading.last_seen > max_age || is_hotspot(reading)) continue;
     heard_times.push_back(reading.last_seen);
     const auto [entry, added] =
         newest.try_emplace(reading.transmitter, Heard{reading.last_seen, reading.rssi_dbm});

@@ -7,6 +7,7 @@
 
 #include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/radio/hotspot_classifier.hpp"
 #include "waylode/radio/matcher.hpp"
 #include "waylode/sample/sample.hpp"
 
@@ -33,7 +34,9 @@ class ScanAssembler {
     bool operator==(const Options&) const = default;
   };
 
-  explicit ScanAssembler(const Options& options) : options_(options) {}
+  /// With `hotspots`, transmitters that it calls mobile are left out. It must outlive this.
+  explicit ScanAssembler(const Options& options, const HotspotClassifier* hotspots = nullptr)
+      : options_(options), hotspots_(hotspots) {}
 
   void add(const sample::BleReading& reading);
   /// A query without readings when nothing in the scan is usable.
@@ -42,7 +45,10 @@ class ScanAssembler {
   Query assemble_bluetooth(core::DeviceTime time) const;
 
  private:
+  bool is_hotspot(const sample::WifiReading& reading) const;
+
   Options options_;
+  const HotspotClassifier* hotspots_;
   std::deque<sample::BleReading> advertisements_;
 };
 

@@ -130,6 +130,18 @@ TEST(ScanAssembler, MakesAnEmptyQueryOfNothingUsable) {
   }
 }
 
+TEST(ScanAssembler, LeavesHotspotsOutWhenGivenAClassifier) {
+  const HotspotClassifier hotspots;
+  sample::WifiReading phone = heard(0x0200'0000'0007ULL, -40.0F, 19'000);  // Local address.
+  phone.ssid = "iPhone von Eva";
+  const sample::WifiScan scan = scan_at(20'000, {phone, heard(2, -61.0F, 19'500)});
+  EXPECT_EQ(ScanAssembler(kOptions).assemble(scan).readings.size(), 2U);
+  const Query query = ScanAssembler(kOptions, &hotspots).assemble(scan);
+  ASSERT_EQ(query.readings.size(), 1U);
+  EXPECT_EQ(query.readings[0].transmitter, TransmitterId::wifi(2));
+  EXPECT_EQ(query.measured, device_time_from_ms(19'500));
+}
+
 TEST(ScanAssembler, RefusesOptionsOutOfRange) {
   using Options = ScanAssembler::Options;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -60,7 +60,8 @@ void add_truth(const detail::Walk& walk, core::DeviceTime epoch, SimulatedRecord
                                body.speed_mps});
   }
   for (const detail::Walk::Step& step : walk.steps()) {
-    recording.steps.push_back({epoch + core::from_seconds(step.end_s), step.length_m});
+    recording.steps.push_back(
+        {epoch + core::from_seconds(step.end_s), step.length_m, step.is_effective});
   }
 }
 

@@ -27,8 +27,9 @@ struct TruthState {
 
 /// One step: from a heel strike to the next one.
 struct StepTruth {
-  core::DeviceTime time;  ///< Of the strike that ends it.
-  double length_m = 0.0;  ///< Horizontal.
+  core::DeviceTime time;     ///< Of the strike that ends it.
+  double length_m = 0.0;     ///< Horizontal.
+  bool is_effective = true;  ///< Leads on; false for stepping in place, whose length is 0.
   bool operator==(const StepTruth&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "waylode/core/angle.hpp"
 #include "waylode/survey/quality.hpp"
@@ -36,7 +37,7 @@ MapBuilder::MapBuilder(site::SiteParts parts, const Options& options)
       site_(std::make_shared<site::Site>(
           site::SiteParts{parts_.name, parts_.origin, parts_.floors, {}})),
       options_(options),
-      moving_(options.moving),
+      moving_(options.moving, options.moving_evidence),
       magnetic_(options.magnetic),
       stretches_(parts_.floors.size()),
       recordings_on_floor_(parts_.floors.size()) {}
@@ -56,6 +57,8 @@ void MapBuilder::add(const SurveyedRecording& recording) {
 
   const std::size_t instances_before = instances_.size();
   std::set<std::pair<core::TransmitterId, core::DeviceTime>> heard;
+  std::set<std::pair<core::TransmitterId, core::DeviceTime>> delivered;
+  moving_.begin_walk();
   radio::ScanAssembler assembler(options_.scan);
   for (sample::Sample& sample : own.samples) {
     if (const auto* advertisement = std::get_if<sample::BleReading>(&sample)) {
@@ -64,9 +67,11 @@ void MapBuilder::add(const SurveyedRecording& recording) {
       quality_.readings_unmappable += std::erase_if(
           scan->readings, [](const auto& reading) { return asks_not_to_be_mapped(reading.ssid); });
       quality_.readings_duplicate += std::erase_if(scan->readings, [&](const auto& reading) {
-        return heard_before_.contains({reading.transmitter, reading.last_seen});
+        return heard_before_.contains({reading.transmitter, reading.last_seen}) ||
+               delivered.contains({reading.transmitter, scan->time});
       });
       for (const auto& reading : scan->readings) {
+        delivered.emplace(reading.transmitter, scan->time);
         heard.emplace(reading.transmitter, reading.last_seen);
       }
       add_scan(assembler.assemble(*scan), *scan, path);
@@ -114,6 +119,7 @@ void MapBuilder::add_scan(const radio::Query& query, const sample::WifiScan& sca
   for (const radio::QueryReading& reading : query.readings) {
     instance.readings.push_back({reading.transmitter, reading.rssi_dbm, reading.age_s});
   }
+  moving_.pass(label->floor, label->position_m);
   for (const sample::WifiReading& reading : scan.readings) {
     if (const auto place = path.at(reading.last_seen)) {
       moving_.hear(reading.transmitter, reading.ssid, reading.rssi_dbm, place->floor,
@@ -174,19 +180,18 @@ core::Result<SurveyedSite> MapBuilder::build() {
 
 site::RadioMapStorage MapBuilder::freeze_radio_map(QualityReport& quality) const {
   site::RadioMapBuilder builder;
-  std::set<core::TransmitterId> moving;
+  std::map<core::TransmitterId, bool> moving;
   for (const Instance& instance : instances_) {
     std::vector<site::MapReading> readings;
     for (const site::MapReading& reading : instance.readings) {
-      if (moving_.is_moving(reading.transmitter)) {
-        moving.insert(reading.transmitter);
-      } else {
-        readings.push_back(reading);
-      }
+      const auto [known, is_new] = moving.try_emplace(reading.transmitter, false);
+      if (is_new) known->second = moving_.is_moving(reading.transmitter);
+      if (!known->second) readings.push_back(reading);
     }
     if (!readings.empty()) builder.add(instance.record, std::move(readings));
   }
-  quality.transmitters_moving = moving.size();
+  quality.transmitters_moving = static_cast<std::uint64_t>(
+      std::ranges::count_if(moving, [](const auto& entry) { return entry.second; }));
   return builder.build();
 }
 

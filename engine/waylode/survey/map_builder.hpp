@@ -37,11 +37,12 @@ struct FloorQuality {
 
 struct QualityReport {
   std::vector<FloorQuality> floors;
-  std::uint64_t stretches = 0;            ///< Between two marks.
-  std::uint64_t stretches_straight = 0;   ///< Labelled along a line: steps did not fit.
-  std::uint64_t stretches_rejected = 0;   ///< Gave no labels.
-  std::uint64_t scans_unlabelled = 0;     ///< Heard outside the marks or on rejected stretches.
-  std::uint64_t readings_duplicate = 0;   ///< Already told by an earlier recording.
+  std::uint64_t stretches = 0;           ///< Between two marks.
+  std::uint64_t stretches_straight = 0;  ///< Labelled along a line: steps did not fit.
+  std::uint64_t stretches_rejected = 0;  ///< Gave no labels.
+  std::uint64_t scans_unlabelled = 0;    ///< Heard outside the marks or on rejected stretches.
+  /// Told already: by an earlier recording, or by an earlier scan of the same time.
+  std::uint64_t readings_duplicate = 0;
   std::uint64_t readings_unmappable = 0;  ///< Transmitter asks not to be mapped.
   std::uint64_t transmitters_moving = 0;  ///< Left out: they move.
   std::vector<std::string> notes;         ///< Recordings that gave nothing, and why.
@@ -61,6 +62,9 @@ class MapBuilder {
     pdr::DeadReckoning::Options pdr;
     LabelledPath::Options labels;
     MovingTransmitterFilter::Options moving;
+    /// kAll for surveys of several walks through every place, some days apart.
+    MovingTransmitterFilter::Evidence moving_evidence =
+        MovingTransmitterFilter::Evidence::kLoudPlaces;
     MagneticSurvey::Options magnetic{};
 
     core::Result<void> validate() const;

@@ -153,6 +153,18 @@ TEST(MapBuilder, KeepsWhatOneRecordingRepeats) {
   EXPECT_EQ(built->parts.radio_map.fingerprints.size(), 2U);
 }
 
+TEST(MapBuilder, DropsWhatIsToldTwiceForTheSameTime) {
+  MapBuilder builder(two_floors(), options());
+  builder.add(ten_seconds_east({scan(4.0, {heard(1, -50.0F, 3.0)}),
+                                scan(4.0, {heard(1, -50.0F, 3.5), heard(2, -60.0F, 4.0)}),
+                                scan(6.0, {heard(1, -50.0F, 6.0)})}));
+  const auto built = builder.build();
+  ASSERT_TRUE(built);
+  EXPECT_EQ(built->quality.readings_duplicate, 1U);
+  EXPECT_EQ(built->parts.radio_map.fingerprints.size(), 3U);
+  EXPECT_EQ(built->parts.radio_map.view().postings_of(TransmitterId::wifi(1)).size(), 2U);
+}
+
 TEST(MapBuilder, RespectsThoseWhoAskNotToBeMapped) {
   MapBuilder builder(two_floors(), options());
   builder.add(

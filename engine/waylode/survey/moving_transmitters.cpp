@@ -2,10 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/survey/moving_transmitters.hpp"
 
-#include <algorithm>
-#include <array>
+#include <limits>
 
 namespace waylode::survey {
+namespace {
+
+using radio::HotspotClassifier;
+
+radio::HotspotEvidence::Options evidence_options(const MovingTransmitterFilter::Options& options,
+                                                 MovingTransmitterFilter::Evidence evidence) {
+  radio::HotspotEvidence::Options result;
+  result.loud_dbm = options.loud_dbm;
+  result.farthest_m = options.farthest_m;
+  if (evidence == MovingTransmitterFilter::Evidence::kLoudPlaces) {
+    result.min_visit_ratio = 0.0;
+    result.max_residual_db = std::numeric_limits<double>::infinity();
+  }
+  return result;
+}
+
+/// A phone's name alone leaves the classifier unsure; a map can spare the few that only look so.
+bool is_hotspot(const HotspotClassifier::Classification& classification) {
+  return classification.verdict == HotspotClassifier::Verdict::kMobile ||
+         classification.reason == HotspotClassifier::Reason::kNameAlone;
+}
+
+}  // namespace
 
 core::Result<void> MovingTransmitterFilter::Options::validate() const {
   if (!(loud_dbm < 0.0F && farthest_m > 0.0)) {
@@ -15,33 +37,18 @@ core::Result<void> MovingTransmitterFilter::Options::validate() const {
   return {};
 }
 
+MovingTransmitterFilter::MovingTransmitterFilter(const Options& options, Evidence evidence)
+    : evidence_(evidence_options(options, evidence)) {}
+
 void MovingTransmitterFilter::hear(core::TransmitterId transmitter, std::string_view ssid,
                                    float rssi_dbm, core::FloorId floor,
                                    const core::Vector2& position_m) {
-  Evidence& evidence = evidence_[transmitter];
-  evidence.named_hotspot = evidence.named_hotspot || is_hotspot_name(ssid);
-  if (rssi_dbm < options_.loud_dbm) return;
-  const auto [box, first] = evidence.loud.try_emplace(floor, core::Bounds2{position_m, position_m});
-  if (first) return;
-  box->second.min_m = box->second.min_m.cwiseMin(position_m);
-  box->second.max_m = box->second.max_m.cwiseMax(position_m);
+  if (is_hotspot(classifier_.classify(transmitter, ssid))) hotspots_.insert(transmitter);
+  evidence_.hear(transmitter, rssi_dbm, floor, position_m);
 }
 
 bool MovingTransmitterFilter::is_moving(core::TransmitterId transmitter) const {
-  const auto found = evidence_.find(transmitter);
-  if (found == evidence_.end()) return false;
-  if (found->second.named_hotspot) return true;
-  return std::ranges::any_of(found->second.loud, [&](const auto& entry) {
-    return entry.second.diagonal_m() > options_.farthest_m;
-  });
-}
-
-bool is_hotspot_name(std::string_view ssid) {
-  static constexpr std::array<std::string_view, 8> kPrefixes = {
-      "AndroidAP", "iPhone", "DIRECT-", "Galaxy S", "Galaxy Note", "Redmi ", "OPPO ", "vivo "};
-  return std::ranges::any_of(kPrefixes,
-                             [&](std::string_view prefix) { return ssid.starts_with(prefix); }) ||
-         ssid.ends_with("iPhone");
+  return hotspots_.contains(transmitter) || evidence_.finding(transmitter).moves();
 }
 
 bool asks_not_to_be_mapped(std::string_view ssid) { return ssid.ends_with("_nomap"); }

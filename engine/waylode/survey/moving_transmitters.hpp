@@ -3,18 +3,20 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <set>
 #include <string_view>
 
 #include "waylode/core/geometry.hpp"
 #include "waylode/core/id.hpp"
 #include "waylode/core/result.hpp"
+#include "waylode/radio/hotspot_classifier.hpp"
+#include "waylode/radio/hotspot_evidence.hpp"
 
 namespace waylode::survey {
 
-/// Finds transmitters that do not stay put (phone hotspots): by what their name says, and by being
-/// heard loudly at places too far apart for one spot. [Wu2019] 1.1 filters hotspots by address and
-/// brand; an address alone decides nothing, so evidence does.
+/// Finds transmitters that do not stay put (phone hotspots) while a survey is read: by address and
+/// name, and by being heard loudly at places too far apart for one spot. [Wu2019] 1.1 filters
+/// hotspots by address and brand; as those decide little, evidence does.
 class MovingTransmitterFilter {
  public:
   struct Options {
@@ -25,25 +27,29 @@ class MovingTransmitterFilter {
     bool operator==(const Options&) const = default;
   };
 
-  explicit MovingTransmitterFilter(const Options& options) : options_(options) {}
+  /// Which evidence counts. All of it needs a survey of many walks.
+  enum class Evidence : std::uint8_t { kLoudPlaces, kAll };
 
+  explicit MovingTransmitterFilter(const Options& options,
+                                   Evidence evidence = Evidence::kLoudPlaces);
+
+  void begin_walk() { evidence_.begin_visit(); }
+  /// The surveyor listened here.
+  void pass(core::FloorId floor, const core::Vector2& position_m) {
+    evidence_.pass(floor, position_m);
+  }
   void hear(core::TransmitterId transmitter, std::string_view ssid, float rssi_dbm,
             core::FloorId floor, const core::Vector2& position_m);
+  /// Costly with all evidence: ask once.
   bool is_moving(core::TransmitterId transmitter) const;
 
  private:
-  struct Evidence {
-    bool named_hotspot = false;
-    std::map<core::FloorId, core::Bounds2> loud;  ///< Box of the loud places, per floor.
-  };
-
-  Options options_;
-  std::map<core::TransmitterId, Evidence> evidence_;
+  radio::HotspotClassifier classifier_;
+  radio::HotspotEvidence evidence_;
+  std::set<core::TransmitterId> hotspots_;  ///< By address and name.
 };
 
-/// Names that phones give their hotspots ("AndroidAP", "iPhone von ...", "DIRECT-..."), and names
-/// that ask not to be mapped ("..._nomap").
-bool is_hotspot_name(std::string_view ssid);
+/// Names that ask not to be mapped ("..._nomap").
 bool asks_not_to_be_mapped(std::string_view ssid);
 
 }  // namespace waylode::survey

@@ -55,12 +55,33 @@ TEST(MovingTransmitterFilter, TakesAHotspotsNameForEvidence) {
   EXPECT_TRUE(filter.is_moving(kBox));
 }
 
-TEST(HotspotNames, AreThoseThatPhonesGive) {
-  for (const char* name : {"AndroidAP", "iPhone von Eva", "Eva's iPhone", "DIRECT-roku-12"}) {
-    EXPECT_TRUE(is_hotspot_name(name)) << name;
-  }
-  for (const char* name : {"", "eduroam", "iphone", "MyAndroidAP", "mall-free-wifi"}) {
-    EXPECT_FALSE(is_hotspot_name(name)) << name;
+TEST(MovingTransmitterFilter, TakesTheAddressOfAPhonesMakerForEvidence) {
+  MovingTransmitterFilter filter(kOptions);
+  const TransmitterId phone = TransmitterId::wifi(0x1C48'CE12'3456ULL);  // A maker of phones only.
+  filter.hear(phone, "cafe", -90.0F, FloorId{0}, Vector2(0.0, 0.0));
+  EXPECT_TRUE(filter.is_moving(phone));
+}
+
+TEST(MovingTransmitterFilter, LetsARouterBearAPhonesName) {
+  MovingTransmitterFilter filter(kOptions);
+  const TransmitterId router = TransmitterId::wifi(0x0000'0C12'3456ULL);  // Of routers only.
+  filter.hear(router, "iPhone", -50.0F, FloorId{0}, Vector2(0.0, 0.0));
+  EXPECT_FALSE(filter.is_moving(router));
+  filter.hear(router, "iPhone", -50.0F, FloorId{0}, Vector2(0.0, 46.0));
+  EXPECT_TRUE(filter.is_moving(router));
+}
+
+TEST(MovingTransmitterFilter, CountsVisitsOnlyWhenAllEvidenceCounts) {
+  for (const auto evidence :
+       {MovingTransmitterFilter::Evidence::kLoudPlaces, MovingTransmitterFilter::Evidence::kAll}) {
+    MovingTransmitterFilter filter(kOptions, evidence);
+    filter.begin_walk();
+    filter.hear(kBox, "guest", -50.0F, FloorId{0}, Vector2(3.0, 4.0));
+    for (int i = 0; i < 7; ++i) {
+      filter.begin_walk();
+      filter.pass(FloorId{0}, Vector2(3.0, 5.0));
+    }
+    EXPECT_EQ(filter.is_moving(kBox), evidence == MovingTransmitterFilter::Evidence::kAll);
   }
 }
 

@@ -46,7 +46,7 @@ struct NearestOptions {
   std::size_t neighbours = 4;
   bool weighted = true;  ///< By the inverse of the distance; else all alike.
   Compared compared = Compared::kUnion;
-  Spread spread;
+  Spread spread{};
 };
 
 /// On every floor the nearest of its candidates; the nearest of all vote for the floors. nullopt

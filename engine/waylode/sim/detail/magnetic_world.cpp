@@ -24,6 +24,20 @@ Vector3 earth_field_ut(const MagneticOptions& options) {
           -options.intensity_ut * std::sin(dip_rad)};
 }
 
+double dipole_count(const MagneticOptions& options, const Vector2& size_m) {
+  const double by_area = options.dipoles_per_100m2 * size_m.prod() / 100.0;
+  return std::round(options.dipoles_per_floor.value_or(by_area));
+}
+
+/// Height above the floor of one dipole.
+double draw_dipole_height_m(const MagneticOptions& options, core::Rng& rng) {
+  const bool is_below = rng.below(2) == 0;
+  if (!options.dipole_nearest_m) return is_below ? rng.uniform(-0.4, 0.0) : rng.uniform(2.5, 3.0);
+  const double nearest_m = *options.dipole_nearest_m;
+  const double away_m = rng.uniform(nearest_m, options.dipole_farthest_m.value_or(nearest_m));
+  return is_below ? kHandHeight_m - away_m : kHandHeight_m + away_m;
+}
+
 Vector3 draw_direction(core::Rng& rng) {
   const double x = rng.normal();
   const double y = rng.normal();
@@ -41,14 +55,18 @@ MagneticWorld::MagneticWorld(const Building& building, const MagneticOptions& op
     core::Rng rng(derive_seed(seed, "dipoles/" + floor.name));
     FloorField field;
     const Vector2 size_m = floor.bounds.size_m();
-    const auto count =
-        static_cast<int>(std::lround(options.dipoles_per_100m2 * size_m.prod() / 100.0));
+    const auto count = static_cast<int>(dipole_count(options, size_m));
+    const Vector2 margin_m = Vector2::Constant(options.dipole_margin_m);
+    const Vector2 low_m = floor.bounds.min_m - margin_m;
+    const Vector2 high_m = floor.bounds.max_m + margin_m;
     for (int i = 0; i < count; ++i) {
-      const double x_m = rng.uniform(floor.bounds.min_m.x(), floor.bounds.max_m.x());
-      const double y_m = rng.uniform(floor.bounds.min_m.y(), floor.bounds.max_m.y());
-      const double z_m = rng.below(2) == 0 ? rng.uniform(-0.4, 0.0) : rng.uniform(2.5, 3.0);
-      field.dipoles.push_back(
-          {{x_m, y_m, z_m}, options.dipole_field_ut * rng.uniform(0.3, 1.5) * draw_direction(rng)});
+      const double x_m = rng.uniform(low_m.x(), high_m.x());
+      const double y_m = rng.uniform(low_m.y(), high_m.y());
+      const double z_m = draw_dipole_height_m(options, rng);
+      const Vector3 direction = draw_direction(rng);
+      const double strength =
+          rng.uniform(options.dipole_weakest_ratio, options.dipole_strongest_ratio);
+      field.dipoles.push_back({{x_m, y_m, z_m}, options.dipole_field_ut * strength * direction});
     }
     for (const char* axis : {"x", "y", "z"}) {
       field.axes.emplace_back(derive_seed(seed, "anomaly/" + floor.name + "/" + axis),

@@ -16,12 +16,18 @@ void visit_gait(Options& options, Visitor&& visit) {
   visit("speed_mps", options.speed_mps, 0.7, 2.0);
   visit("step_scale_ratio", options.step_scale_ratio, 0.7, 1.3);
   visit("bounce_constant", options.bounce_constant, 0.3, 0.6);
+  visit("cadence_hz", options.cadence_hz, 1.2, 2.6);
   visit("step_sigma_ratio", options.step_sigma_ratio, 0.0, 0.3);
   visit("cadence_sigma_ratio", options.cadence_sigma_ratio, 0.0, 0.2);
   visit("stand_before_s", options.stand_before_s, 0.0, 600.0);
   visit("pause_probability", options.pause_probability, 0.0, 1.0);
   visit("pause_s", options.pause_s, 0.0, 600.0);
   visit("u_turn_probability", options.u_turn_probability, 0.0, 1.0);
+  visit("bounce_sigma_ratio", options.bounce_sigma_ratio, 0.0, 0.5);
+  visit("end_step_ratio", options.end_step_ratio, 0.3, 1.0);
+  visit("straight_ways", options.straight_ways);
+  visit("photo_stops", options.photo_stops, 0.0, 20.0);
+  visit("dodges", options.dodges, 0.0, 20.0);
 }
 
 template <typename Options, typename Visitor>
@@ -37,9 +43,12 @@ void visit_phone(Options& options, Visitor&& visit) {
   visit("gyroscope_noise_degps", options.gyroscope_noise_degps, 0.0, 20.0);
   visit("magnetometer_bias_sigma_ut", options.magnetometer_bias_sigma_ut, 0.0, 200.0);
   visit("magnetometer_noise_ut", options.magnetometer_noise_ut, 0.0, 50.0);
+  visit("has_attitude", options.has_attitude);
   visit("attitude_drift_sigma_deg", options.attitude_drift_sigma_deg, 0.0, 90.0);
   visit("attitude_magnetic_ratio", options.attitude_magnetic_ratio, 0.0, 1.0);
   visit("sway_deg", options.sway_deg, 0.0, 30.0);
+  visit("is_flat", options.is_flat);
+  visit("magnetometer_yaw_sigma_deg", options.magnetometer_yaw_sigma_deg, 0.0, 45.0);
   visit("barometer_offset_hpa", options.barometer_offset_hpa, -10.0, 10.0);
   visit("barometer_noise_hpa", options.barometer_noise_hpa, 0.0, 5.0);
   visit("rssi_offset_db", options.rssi_offset_db, -30.0, 30.0);
@@ -47,12 +56,17 @@ void visit_phone(Options& options, Visitor&& visit) {
   visit("scan_interval_s", options.scan_interval_s, 0.5, 300.0);
   visit("scan_miss_ratio", options.scan_miss_ratio, 0.0, 1.0);
   visit("scan_cache_s", options.scan_cache_s, 0.0, 600.0);
+  visit("scan_sweep_s", options.scan_sweep_s, 0.0, 10.0);
+  visit("scan_delay_s", options.scan_delay_s, 0.0, 30.0);
 }
 
 template <typename Options, typename Visitor>
 void visit_radio(Options& options, Visitor&& visit) {
   visit("wifi_power_dbm", options.wifi_power_dbm, -90.0, 0.0);
   visit("bluetooth_power_dbm", options.bluetooth_power_dbm, -100.0, 0.0);
+  visit("reference_distance_m", options.reference_distance_m, 0.1, 10.0);
+  visit("nearest_m", options.nearest_m, 0.1, 10.0);
+  visit("transmitter_height_m", options.transmitter_height_m, 0.0, 10.0);
   visit("band_5ghz_loss_db", options.band_5ghz_loss_db, -20.0, 40.0);
   visit("dual_band", options.dual_band);
   visit("path_loss_exponent", options.path_loss_exponent, 1.0, 6.0);
@@ -66,6 +80,7 @@ void visit_radio(Options& options, Visitor&& visit) {
   visit("temporal_time_s", options.temporal_time_s, 0.1, 3600.0);
   visit("bluetooth_noise_db", options.bluetooth_noise_db, 0.0, 20.0);
   visit("body_loss_db", options.body_loss_db, 0.0, 30.0);
+  visit("body_shadows_behind_only", options.body_shadows_behind_only);
   visit("drift_sigma_db", options.drift_sigma_db, 0.0, 30.0);
   visit("detection_threshold_dbm", options.detection_threshold_dbm, -110.0, -30.0);
   visit("detection_softness_db", options.detection_softness_db, 0.01, 20.0);
@@ -81,6 +96,14 @@ void visit_magnetic(Options& options, Visitor&& visit) {
   visit("anomaly_range_m", options.anomaly_range_m, 0.5, 50.0);
   visit("dipoles_per_100m2", options.dipoles_per_100m2, 0.0, 20.0);
   visit("dipole_field_ut", options.dipole_field_ut, 0.0, 500.0);
+  visit("dipoles_per_floor", options.dipoles_per_floor, 0.0, 500.0);
+  visit("dipole_weakest_ratio", options.dipole_weakest_ratio, 0.0, 10.0);
+  visit("dipole_strongest_ratio", options.dipole_strongest_ratio, options.dipole_weakest_ratio,
+        10.0);
+  visit("dipole_nearest_m", options.dipole_nearest_m, 0.5, 10.0);
+  visit("dipole_farthest_m", options.dipole_farthest_m, options.dipole_nearest_m.value_or(0.5),
+        10.0);
+  visit("dipole_margin_m", options.dipole_margin_m, 0.0, 20.0);
 }
 
 template <typename Options, typename Visitor>

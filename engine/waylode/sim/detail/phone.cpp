@@ -22,11 +22,16 @@ Vector3 draw_vector(core::Rng& rng, double sigma) {
   return {x, y, z};
 }
 
+Quaternion about_up(double angle_rad) {
+  return Quaternion(Eigen::AngleAxisd(angle_rad, Vector3::UnitZ()));
+}
+
 /// What the phone's calibration leaves; fixed for one recording.
 struct Biases {
   Vector3 accelerometer_mps2;
   Vector3 gyroscope_radps;
   Vector3 magnetometer_ut;
+  Quaternion magnetometer_turn = Quaternion::Identity();
 };
 
 Biases draw_biases(const PhoneOptions& options, core::Rng& rng) {
@@ -35,6 +40,10 @@ Biases draw_biases(const PhoneOptions& options, core::Rng& rng) {
   biases.gyroscope_radps =
       draw_vector(rng, core::radians_from_degrees(options.gyroscope_bias_sigma_degps));
   biases.magnetometer_ut = draw_vector(rng, options.magnetometer_bias_sigma_ut);
+  if (options.magnetometer_yaw_sigma_deg > 0.0) {
+    biases.magnetometer_turn =
+        about_up(core::radians_from_degrees(rng.normal(0.0, options.magnetometer_yaw_sigma_deg)));
+  }
   return biases;
 }
 
@@ -66,10 +75,6 @@ class AttitudeError {
   double magnetic_ratio_;
   double magnetic_rad_ = 0.0;
 };
-
-Quaternion about_up(double angle_rad) {
-  return Quaternion(Eigen::AngleAxisd(angle_rad, Vector3::UnitZ()));
-}
 
 }  // namespace
 
@@ -103,16 +108,17 @@ void sense_motion(const Walk& walk, const MagneticWorld& world, const MagneticOp
     samples.push_back(sample::GyroscopeSample{
         time, mean_rate_radps(last_attitude, site_from_device, dt_s) + biases.gyroscope_radps +
                   draw_vector(rng, gyroscope_noise_radps)});
-    samples.push_back(
-        sample::MagnetometerSample{time,
-                                   device_from_site * field_ut + biases.magnetometer_ut +
-                                       draw_vector(rng, options.magnetometer_noise_ut),
-                                   3});
+    samples.push_back(sample::MagnetometerSample{
+        time,
+        biases.magnetometer_turn * (device_from_site * field_ut) + biases.magnetometer_ut +
+            draw_vector(rng, options.magnetometer_noise_ut),
+        3});
+    last_heading_rad = body.heading_rad;
+    last_attitude = site_from_device;
+    if (!options.has_attitude) continue;
     const double error_rad = attitude_error.update(t_s, dt_s, field_ut, world.earth_ut());
     samples.push_back(sample::RotationSample{
         time, (about_up(error_rad - north_offset_rad) * site_from_device).normalized()});
-    last_heading_rad = body.heading_rad;
-    last_attitude = site_from_device;
   }
 }
 

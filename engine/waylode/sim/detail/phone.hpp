@@ -40,6 +40,7 @@ class PhoneHold {
   double pitch_rad_;
   double roll_rad_;
   double sway_rad_;
+  double tilt_wander_rad_;
   SmoothNoise yaw_wander_;
   SmoothNoise pitch_wander_;
   SmoothNoise roll_wander_;

@@ -45,19 +45,21 @@ PhoneHold::PhoneHold(const PhoneOptions& options, core::Rng& rng)
       pitch_rad_(mean_pitch_rad(options.pose, rng)),
       roll_rad_(rng.normal(0.0, 0.05)),
       sway_rad_(core::radians_from_degrees(options.sway_deg)),
+      tilt_wander_rad_(0.03),
       yaw_wander_(rng, 20.0),
       pitch_wander_(rng, 8.0),
-      roll_wander_(rng, 8.0) {}
+      roll_wander_(rng, 8.0) {
+  if (options.is_flat) pitch_rad_ = roll_rad_ = tilt_wander_rad_ = 0.0;
+}
 
 Quaternion PhoneHold::site_from_device(const BodyState& body, double t_s) const {
   constexpr double kYawWander_rad = 0.035;
-  constexpr double kTiltWander_rad = 0.03;
   const double sway_rad = sway_rad_ * std::sin(kPi * body.step_phase);
   const double yaw_rad =
       body.heading_rad + yaw_rad_ + sway_rad + kYawWander_rad * yaw_wander_.at(t_s);
   const double pitch_rad =
-      pitch_rad_ + kTiltWander_rad * pitch_wander_.at(t_s) + swing(body).angle_rad;
-  const double roll_rad = roll_rad_ + kTiltWander_rad * roll_wander_.at(t_s);
+      pitch_rad_ + tilt_wander_rad_ * pitch_wander_.at(t_s) + swing(body).angle_rad;
+  const double roll_rad = roll_rad_ + tilt_wander_rad_ * roll_wander_.at(t_s);
   // The top edge looks along the heading.
   return Quaternion(Eigen::AngleAxisd(yaw_rad - kPi / 2.0, Vector3::UnitZ()) *
                     Eigen::AngleAxisd(pitch_rad, Vector3::UnitX()) *
@@ -65,7 +67,7 @@ Quaternion PhoneHold::site_from_device(const BodyState& body, double t_s) const 
 }
 
 double PhoneHold::height_m() const {
-  if (pose_ == PhoneOptions::Pose::kHand) return 1.2;
+  if (pose_ == PhoneOptions::Pose::kHand) return kHandHeight_m;
   return pose_ == PhoneOptions::Pose::kPocket ? 0.85 : 0.75;
 }
 

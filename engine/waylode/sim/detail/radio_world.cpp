@@ -15,7 +15,6 @@ namespace {
 
 using core::Vector2;
 
-constexpr double kTransmitterHeight_m = 2.6;
 constexpr double kPhoneHeight_m = 1.1;
 
 /// An address as bought from the registry: neither group nor locally administered.
@@ -88,7 +87,7 @@ RadioWorld::RadioWorld(const Building& building, const RadioOptions& options, st
 double RadioWorld::distance_m(std::size_t emitter, core::FloorId floor,
                               const Vector2& position_m) const {
   const Emitter& from = emitters_[emitter];
-  const double up_m = building_.floor(from.floor).elevation_m + kTransmitterHeight_m -
+  const double up_m = building_.floor(from.floor).elevation_m + options_.transmitter_height_m -
                       building_.floor(floor).elevation_m - kPhoneHeight_m;
   return std::hypot((position_m - from.position_m).norm(), up_m);
 }
@@ -112,10 +111,11 @@ double RadioWorld::mean_rssi_dbm(std::size_t emitter, core::FloorId floor,
                                  const Vector2& position_m) const {
   const Emitter& from = emitters_[emitter];
   const int slabs = std::abs(building_.floor(from.floor).level - building_.floor(floor).level);
-  const double far_m = std::max(1.0, distance_m(emitter, floor, position_m));
-  const double in_the_open_dbm = from.power_dbm -
-                                 10.0 * options_.path_loss_exponent * std::log10(far_m) -
-                                 options_.floor_loss_db * slabs;
+  const double far_m = std::max(options_.nearest_m, distance_m(emitter, floor, position_m));
+  const double in_the_open_dbm =
+      from.power_dbm -
+      10.0 * options_.path_loss_exponent * std::log10(far_m / options_.reference_distance_m) -
+      options_.floor_loss_db * slabs;
   constexpr double kBeyondHearing_db = 20.0;
   if (in_the_open_dbm + 3.0 * options_.shadowing_sigma_db <
       options_.detection_threshold_dbm - kBeyondHearing_db) {

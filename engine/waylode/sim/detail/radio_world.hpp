@@ -19,7 +19,7 @@ struct Emitter {
   std::string name;  ///< "F1/A/2.4", "F1/a": everything random about it is drawn from this.
   core::FloorId floor;
   core::Vector2 position_m;
-  double power_dbm = 0.0;  ///< Received at 1 m.
+  double power_dbm = 0.0;  ///< Received at the reference distance.
   std::int32_t frequency_mhz = 0;
 };
 

@@ -11,8 +11,6 @@ namespace waylode::sim::detail {
 
 namespace {
 
-constexpr double kLongestSweep_s = 1.8;
-
 /// Where in a sweep a channel comes up, 0 to 1: the low band first.
 double place_in_sweep(std::int32_t frequency_mhz) {
   constexpr double kLowBandShare = 0.4;
@@ -26,10 +24,22 @@ Receiver::Receiver(const RadioWorld& world, const RadioOptions& radio, const Pho
                    std::optional<std::uint64_t> drift_seed, core::Rng rng)
     : world_(world), radio_(radio), phone_(phone), rng_(std::move(rng)) {
   fading_.resize(world.emitters().size());
+  means_.resize(world.emitters().size());
   for (const Emitter& emitter : world.emitters()) {
     core::Rng drift(derive_seed(drift_seed.value_or(0), "drift/" + emitter.name));
     drift_db_.push_back(drift_seed ? drift.normal(0.0, radio.drift_sigma_db) : 0.0);
   }
+}
+
+double Receiver::mean_dbm(std::size_t emitter, const BodyState& body) {
+  Mean& mean = means_[emitter];
+  const bool is_same =
+      mean.is_known && mean.floor == body.floor && mean.position_m == body.position_m;
+  if (!is_same) {
+    mean = {body.floor, body.position_m, world_.mean_rssi_dbm(emitter, body.floor, body.position_m),
+            true};
+  }
+  return mean.rssi_dbm;
 }
 
 double Receiver::fading_db(std::size_t emitter, double t_s) {
@@ -48,13 +58,15 @@ double Receiver::body_db(std::size_t emitter, const BodyState& body) const {
   if (distance_m < 0.5) return 0.0;
   const core::Vector2 ahead(std::cos(body.heading_rad), std::sin(body.heading_rad));
   // The phone is in front of the body: full loss for a transmitter behind, none for one ahead.
-  return -radio_.body_loss_db * 0.5 * (1.0 - ahead.dot(towards) / distance_m);
+  const double cosine = ahead.dot(towards) / distance_m;
+  const double share =
+      radio_.body_shadows_behind_only ? std::max(0.0, -cosine) : 0.5 * (1.0 - cosine);
+  return -radio_.body_loss_db * share;
 }
 
 std::optional<float> Receiver::hear(std::size_t emitter, const BodyState& body, double t_s) {
-  const double mean_dbm = world_.mean_rssi_dbm(emitter, body.floor, body.position_m);
-  const double on_air_dbm =
-      mean_dbm + drift_db_[emitter] + body_db(emitter, body) + fading_db(emitter, t_s);
+  const double on_air_dbm = mean_dbm(emitter, body) + drift_db_[emitter] + body_db(emitter, body) +
+                            fading_db(emitter, t_s);
   const double level = (on_air_dbm - radio_.detection_threshold_dbm) / radio_.detection_softness_db;
   if (rng_.uniform() >= 1.0 / (1.0 + std::exp(-level))) return std::nullopt;
   constexpr double kMiddle_dbm = -60.0;
@@ -66,7 +78,10 @@ std::optional<float> Receiver::hear(std::size_t emitter, const BodyState& body, 
 void Receiver::sense_wifi(const Walk& walk, core::DeviceTime epoch,
                           std::vector<sample::Sample>& samples) {
   std::vector<std::optional<Cached>> cache(world_.emitters().size());
-  const double sweep_s = std::min(kLongestSweep_s, 0.9 * phone_.scan_interval_s);
+  const double sweep_s = std::min(phone_.scan_sweep_s, 0.9 * phone_.scan_interval_s);
+  constexpr double kRounding_s = 1e-6;
+  const double oldest_s =
+      std::max(sweep_s + phone_.scan_delay_s, phone_.scan_cache_s) + kRounding_s;
   double delivery_s = rng_.uniform(0.2, 1.0) * phone_.scan_interval_s;
   for (; delivery_s <= walk.duration_s(); delivery_s += phone_.scan_interval_s) {
     sample::WifiScan scan;
@@ -75,16 +90,15 @@ void Receiver::sense_wifi(const Walk& walk, core::DeviceTime epoch,
       const Emitter& emitter = world_.emitters()[i];
       if (emitter.id.kind() != core::TransmitterId::Kind::kWifi) continue;
       const double into_sweep = place_in_sweep(emitter.frequency_mhz) + 0.03 * rng_.uniform();
-      const double heard_s = delivery_s - sweep_s * (1.0 - std::min(1.0, into_sweep));
+      const double heard_s =
+          delivery_s - phone_.scan_delay_s - sweep_s * (1.0 - std::min(1.0, into_sweep));
       const bool is_missed = rng_.uniform() < phone_.scan_miss_ratio || heard_s < 0.0;
       if (!is_missed) {
         if (const auto rssi_dbm = hear(i, walk.at(heard_s), heard_s)) {
           cache[i] = Cached{*rssi_dbm, heard_s};
         }
       }
-      if (!cache[i] || delivery_s - cache[i]->heard_s > std::max(sweep_s, phone_.scan_cache_s)) {
-        continue;
-      }
+      if (!cache[i] || delivery_s - cache[i]->heard_s > oldest_s) continue;
       scan.readings.push_back({emitter.id, cache[i]->rssi_dbm, emitter.frequency_mhz,
                                epoch + core::from_seconds(cache[i]->heard_s), "waylode-sim"});
     }

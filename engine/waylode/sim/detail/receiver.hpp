@@ -39,11 +39,19 @@ class Receiver {
     double t_s = 0.0;
     bool is_started = false;
   };
+  /// The mean at the last place, which standing people ask for again and again.
+  struct Mean {
+    core::FloorId floor;
+    core::Vector2 position_m = core::Vector2::Zero();
+    double rssi_dbm = 0.0;
+    bool is_known = false;
+  };
   struct Cached {
     float rssi_dbm = 0.0F;
     double heard_s = 0.0;
   };
 
+  double mean_dbm(std::size_t emitter, const BodyState& body);
   double fading_db(std::size_t emitter, double t_s);
   double body_db(std::size_t emitter, const BodyState& body) const;
 
@@ -53,6 +61,7 @@ class Receiver {
   core::Rng rng_;
   std::vector<double> drift_db_;
   std::vector<Fading> fading_;
+  std::vector<Mean> means_;
 };
 
 }  // namespace waylode::sim::detail

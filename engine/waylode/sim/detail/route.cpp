@@ -68,6 +68,7 @@ class RouteBuilder {
  private:
   core::Result<Way> find_way(const Vector2& to_m, const std::string& name) const {
     if ((to_m - position_m_).norm() < 0.05) return Way{};
+    if (options_.straight_ways) return Way{position_m_, to_m};
     auto way = grids_[floor_.index].find_way(position_m_, to_m);
     if (!way) {
       return core::fail(core::ErrorCode::kScenarioInvalid,

@@ -14,6 +14,7 @@ namespace {
 constexpr double kStairsCadence_hz = 1.6;
 constexpr double kLowestCadence_hz = 1.2;
 constexpr double kHighestCadence_hz = 2.6;
+constexpr double kInPlaceCadence_hz = 1.5;
 
 /// Peak-to-peak vertical acceleration of a step, after [Weinberg2002] turned round.
 double bounce_mps2(const Person& person, double length_m) {
@@ -41,8 +42,8 @@ Person draw_person(const GaitOptions& options, core::Rng& rng) {
   const double drawn_cadence_hz = rng.uniform(1.7, 2.0);
   person.step_scale_ratio = options.step_scale_ratio.value_or(drawn_scale);
   person.bounce_constant = options.bounce_constant.value_or(drawn_bounce);
-  person.cadence_hz =
-      options.speed_mps ? cadence_for_speed(person, *options.speed_mps) : drawn_cadence_hz;
+  person.cadence_hz = options.speed_mps ? cadence_for_speed(person, *options.speed_mps)
+                                        : options.cadence_hz.value_or(drawn_cadence_hz);
   return person;
 }
 
@@ -57,6 +58,7 @@ Walk::Walk(const Building& building, std::vector<Stroke> strokes, const Person& 
     : building_(building), strokes_(std::move(strokes)) {
   heading_rad_ = strokes_.front().path.heading_rad(0.0);
   stand(0, 0.0, options.stand_before_s, heading_rad_);
+  draw_episodes(options, rng);
   for (std::size_t i = 0; i < strokes_.size(); ++i) {
     const double turn_rad = core::wrap_angle(strokes_[i].path.heading_rad(0.0) - heading_rad_);
     constexpr double kTurnRate_radps = 2.5;
@@ -67,8 +69,55 @@ Walk::Walk(const Building& building, std::vector<Stroke> strokes, const Person& 
     const std::size_t first_spell = spells_.size();
     add_steps(i, person, options, rng);
     add_taps(i, first_spell);
+    strokes_done_m_ += strokes_[i].path.length_m();
   }
   stand(strokes_.size() - 1, strokes_.back().path.length_m(), options.stand_before_s, heading_rad_);
+}
+
+void Walk::draw_episodes(const GaitOptions& options, core::Rng& rng) {
+  const auto photo_stops = static_cast<int>(std::round(options.photo_stops));
+  const auto dodges = static_cast<int>(std::round(options.dodges));
+  const double whole_m = path_length_m();
+  constexpr double kUndisturbed_m = 5.0;
+  const double margin_m = std::min(kUndisturbed_m, 0.25 * whole_m);
+  for (int i = 0; i < photo_stops + dodges; ++i) {
+    const bool is_photo = i < photo_stops;
+    const double duration_s = is_photo ? rng.uniform(3.0, 6.0) : rng.uniform(1.0, 2.0);
+    const double turn_deg = is_photo ? rng.uniform(50.0, 110.0) : rng.uniform(25.0, 60.0);
+    Episode episode;
+    episode.walked_m = rng.uniform(margin_m, whole_m - margin_m);
+    episode.steps = static_cast<int>(std::round(duration_s * kInPlaceCadence_hz));
+    episode.turn_rad = core::radians_from_degrees(rng.below(2) == 0 ? turn_deg : -turn_deg);
+    episode.bounce_mps2 = rng.uniform(2.5, 5.5);
+    episodes_.push_back(episode);
+  }
+  std::stable_sort(episodes_.begin(), episodes_.end(),
+                   [](const Episode& a, const Episode& b) { return a.walked_m < b.walked_m; });
+}
+
+void Walk::add_due_episodes(std::size_t stroke, double arc_m, double turns_rad) {
+  if (strokes_[stroke].is_stairs()) return;
+  for (; episodes_done_ < episodes_.size(); ++episodes_done_) {
+    const Episode& episode = episodes_[episodes_done_];
+    if (episode.walked_m > strokes_done_m_ + arc_m) return;
+    Spell spell;
+    spell.stroke = stroke;
+    spell.start_arc_m = spell.end_arc_m = arc_m;
+    spell.start_heading_rad = spell.end_heading_rad = turns_rad;
+    spell.is_step = true;
+    spell.is_effective = false;
+    spell.bounce_mps2 = episode.bounce_mps2;
+    spell.turn_rad = episode.turn_rad;
+    spell.turn_start_s = spells_.back().end_s;
+    spell.turn_end_s = spell.turn_start_s + episode.steps / kInPlaceCadence_hz;
+    for (int i = 0; i < episode.steps; ++i) {
+      spell.start_s = spells_.back().end_s;
+      spell.end_s = spell.turn_start_s + (i + 1) / kInPlaceCadence_hz;
+      spell.step_index = step_count_;
+      spells_.push_back(spell);
+      step_count_ += 1.0;
+    }
+  }
 }
 
 void Walk::stand(std::size_t stroke, double arc_m, double duration_s, double to_heading_rad) {
@@ -92,8 +141,6 @@ void Walk::add_steps(std::size_t stroke, const Person& person, const GaitOptions
   const double cadence_hz = is_stairs ? kStairsCadence_hz : person.cadence_hz;
   const double mean_m = is_stairs ? kStairsStep_m : step_length_m(person, cadence_hz);
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round(path.length_m() / mean_m)));
-  // People start and stop with a shorter step.
-  constexpr double kEndStep_ratio = 0.7;
   std::vector<double> cadences_hz;
   std::vector<double> lengths_m;
   double sum_m = 0.0;
@@ -104,13 +151,15 @@ void Walk::add_steps(std::size_t stroke, const Person& person, const GaitOptions
     cadences_hz.push_back(cadence_hz * (1.0 + options.cadence_sigma_ratio * tempo));
     double length_m = is_stairs ? kStairsStep_m : step_length_m(person, cadences_hz.back());
     length_m *= std::max(0.3, 1.0 + options.step_sigma_ratio * rng.normal());
-    if (!is_stairs && count > 2 && (i == 0 || i + 1 == count)) length_m *= kEndStep_ratio;
+    // People start and stop with a shorter step.
+    if (!is_stairs && count > 2 && (i == 0 || i + 1 == count)) length_m *= options.end_step_ratio;
     lengths_m.push_back(length_m);
     sum_m += length_m;
   }
   const double turns_rad = heading_rad_ - path.heading_rad(0.0);
   double arc_m = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
+    add_due_episodes(stroke, arc_m, turns_rad);
     Spell spell;
     spell.start_s = spells_.back().end_s;
     spell.end_s = spell.start_s + 1.0 / cadences_hz[i];
@@ -127,6 +176,9 @@ void Walk::add_steps(std::size_t stroke, const Person& person, const GaitOptions
     const double swing_m =
         is_stairs ? step_length_m(person, kStairsCadence_hz) : spell.end_arc_m - spell.start_arc_m;
     spell.bounce_mps2 = bounce_mps2(person, swing_m);
+    if (options.bounce_sigma_ratio > 0.0) {
+      spell.bounce_mps2 *= std::exp(options.bounce_sigma_ratio * rng.normal());
+    }
     spells_.push_back(spell);
     step_count_ += 1.0;
   }
@@ -137,7 +189,7 @@ void Walk::add_taps(std::size_t stroke, std::size_t first_spell) {
   for (const double tap_arc_m : strokes_[stroke].taps_arc_m) {
     for (std::size_t i = first_spell; i < spells_.size(); ++i) {
       const Spell& spell = spells_[i];
-      if (tap_arc_m > spell.end_arc_m) continue;
+      if (!spell.is_effective || tap_arc_m > spell.end_arc_m) continue;
       const double ratio = (tap_arc_m - spell.start_arc_m) / (spell.end_arc_m - spell.start_arc_m);
       tap_times_s_.push_back(spell.start_s + std::max(0.0, ratio) * (spell.end_s - spell.start_s));
       break;
@@ -174,6 +226,11 @@ BodyState Walk::at(double t_s) const {
     return state;
   }
   state.heading_rad = spell.start_heading_rad + stroke.path.heading_rad(arc_m);
+  if (!spell.is_effective) {
+    const double swung =
+        std::sin(core::kPi * (t_s - spell.turn_start_s) / (spell.turn_end_s - spell.turn_start_s));
+    state.heading_rad += spell.turn_rad * swung * swung;
+  }
   state.speed_mps = (spell.end_arc_m - spell.start_arc_m) / duration_s;
   state.step_phase = spell.step_index + ratio;
   state.cadence_hz = 1.0 / duration_s;
@@ -186,7 +243,8 @@ BodyState Walk::at(double t_s) const {
 std::vector<Walk::Step> Walk::steps() const {
   std::vector<Step> steps;
   for (const Spell& spell : spells_) {
-    if (spell.is_step) steps.push_back({spell.end_s, spell.end_arc_m - spell.start_arc_m});
+    if (!spell.is_step) continue;
+    steps.push_back({spell.end_s, spell.end_arc_m - spell.start_arc_m, spell.is_effective});
   }
   return steps;
 }

@@ -41,7 +41,8 @@ struct BodyState {
   bool is_last_step = false;
 };
 
-/// A walk laid out in time: spells of standing (and turning on the spot) and steps.
+/// A walk laid out in time: spells of standing (and turning on the spot) and steps, some of them in
+/// place.
 class Walk {
  public:
   Walk(const Building& building, std::vector<Stroke> strokes, const Person& person,
@@ -54,6 +55,7 @@ class Walk {
   struct Step {
     double end_s = 0.0;
     double length_m = 0.0;
+    bool is_effective = true;
   };
   std::vector<Step> steps() const;
   /// When named places are passed, rising.
@@ -74,8 +76,22 @@ class Walk {
     bool is_first = false;
     bool is_last = false;
     double bounce_mps2 = 0.0;
+    bool is_effective = true;
+    double turn_rad = 0.0;      ///< In place: the body turns so far and back,
+    double turn_start_s = 0.0;  ///< from then
+    double turn_end_s = 0.0;    ///< to then.
+  };
+  /// Stepping in place on the way.
+  struct Episode {
+    double walked_m = 0.0;  ///< Where: length of the way before it.
+    int steps = 0;
+    double turn_rad = 0.0;
+    double bounce_mps2 = 0.0;
   };
 
+  void draw_episodes(const GaitOptions& options, core::Rng& rng);
+  /// The episodes that are due before the step that starts at `arc_m`.
+  void add_due_episodes(std::size_t stroke, double arc_m, double turns_rad);
   void stand(std::size_t stroke, double arc_m, double duration_s, double to_heading_rad);
   void add_steps(std::size_t stroke, const Person& person, const GaitOptions& options,
                  core::Rng& rng);
@@ -86,6 +102,9 @@ class Walk {
   std::vector<Stroke> strokes_;
   std::vector<Spell> spells_;
   std::vector<double> tap_times_s_;
+  std::vector<Episode> episodes_;  ///< By rising walked_m.
+  std::size_t episodes_done_ = 0;
+  double strokes_done_m_ = 0.0;  ///< Length of the strokes before the present one.
   double heading_rad_ = 0.0;
   double step_count_ = 0.0;
 };

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#include "waylode/experiment/step_counting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "waylode/pdr/gravity_filter.hpp"
+
+namespace waylode::experiment {
+namespace {
+
+CountedRecording count_steps_of(const StepRecording& recording, pdr::StepSource& detector) {
+  CountedRecording result{recording.name, recording.placement, 0, recording.steps.size(), 0.0, 0.0};
+  pdr::GravityFilter gravity{pdr::GravityFilter::Options{}};
+  for (const sample::AccelerometerSample& sample : recording.samples) {
+    gravity.add(sample);
+    if (!gravity.up_in_device()) continue;
+    pdr::StepInput input;
+    input.time = sample.time;
+    input.vertical_mps2 =
+        sample.specific_force_mps2.dot(*gravity.up_in_device()) - pdr::kStandardGravity_mps2;
+    input.norm_mps2 = sample.specific_force_mps2.norm() - pdr::kStandardGravity_mps2;
+    const std::optional<pdr::Step> step = detector.add(input);
+    if (!step) continue;
+    ++result.counted;
+    result.longest_delay_s =
+        std::max(result.longest_delay_s, core::to_seconds(sample.time - step->time));
+  }
+  const auto walked = static_cast<double>(result.walked);
+  result.error_ratio = (static_cast<double>(result.counted) - walked) / walked;
+  return result;
+}
+
+std::vector<PlacementCount> by_placement(const std::vector<CountedRecording>& recordings) {
+  std::map<std::string, PlacementCount> placements;
+  for (const CountedRecording& recording : recordings) {
+    PlacementCount& entry = placements[recording.placement];
+    entry.placement = recording.placement;
+    ++entry.recordings;
+    entry.mean_abs_error_ratio += std::abs(recording.error_ratio);
+  }
+  std::vector<PlacementCount> result;
+  for (const auto& [name, entry] : placements) {
+    result.push_back(entry);
+    result.back().mean_abs_error_ratio /= static_cast<double>(entry.recordings);
+  }
+  return result;
+}
+
+}  // namespace
+
+StepCounting count_steps(const std::vector<StepRecording>& recordings,
+                         const StepSourceFactory& make_detector) {
+  StepCounting result;
+  for (const StepRecording& recording : recordings) {
+    if (recording.steps.empty()) continue;
+    result.recordings.push_back(count_steps_of(recording, *make_detector()));
+  }
+  for (const CountedRecording& recording : result.recordings) {
+    const auto count = static_cast<double>(result.recordings.size());
+    result.mean_abs_error_ratio += std::abs(recording.error_ratio) / count;
+    result.mean_error_ratio += recording.error_ratio / count;
+  }
+  result.placements = by_placement(result.recordings);
+  return result;
+}
+
+}  // namespace waylode::experiment
