@@ -30,7 +30,7 @@ pipeline::SessionOptions session_options(const TestCase& test, const TestRecordi
                                          const pipeline::Method& method, bool floor_known) {
   pipeline::SessionOptions options;
   if (floor_known) options.known_floor = test.floor;
-  if (method.kind == pipeline::MethodKind::kPdr) {
+  if (method.needs_start()) {
     const eval::TruthPoint& start = recording.truths.front();
     options.start = pipeline::StartPose{start.time, start.floor, start.position_m, 1.0};
   }
@@ -57,7 +57,7 @@ core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRe
     instants.push_back(truth.time);
   }
   // Dead reckoning was told where it starts.
-  if (method.kind == pipeline::MethodKind::kPdr) track.truths.front().scored = false;
+  if (method.needs_start()) track.truths.front().scored = false;
   const double started_s = thread_cpu_s();
   auto session = pipeline::Session::create(test.model, method,
                                            session_options(test, recording, method, floor_known));

@@ -85,7 +85,7 @@ core::Result<pipeline::SessionOptions> session_options(const Arguments& argument
 
 bool is_usable(const sample::Sample& sample, const pipeline::Method& method,
                const site::RadioMap& map) {
-  if (method.kind == pipeline::MethodKind::kPdr) {
+  if (method.needs_start()) {
     return std::holds_alternative<sample::AccelerometerSample>(sample);
   }
   if (const auto* beacon = std::get_if<sample::BleReading>(&sample)) {
@@ -104,7 +104,7 @@ core::Result<void> check_records(const Arguments& arguments, const pipeline::Met
     return {};
   }
   return core::fail(core::ErrorCode::kLogLacksRecords,
-                    method.kind == pipeline::MethodKind::kPdr
+                    method.needs_start()
                         ? "no accelerometer record, which method pdr needs; record motion sensors"
                         : "no Wi-Fi record; record with Wi-Fi on, or use --method pdr with --start",
                     arguments.log);

@@ -61,9 +61,9 @@ std::optional<DecisionFlow::Comparison> DecisionFlow::add(const PlanarMeasuremen
   last_fix_ = fix.delivered;
   if (options_.mode == DecisionMode::kWuLiteral) return compare_literally(fix);
 
-  const core::Vector2 walked_m = filter_.at(filter_.time()).position_m;
-  const core::Vector2 fixed_m = fix.position_m - path_.offset_m(fix.measured);
-  Comparison result{(fixed_m - walked_m).norm()};
+  const core::Vector2 walked_m =
+      filter_.filter().mean().head<2>() + filter_.walked_offset_m(fix.measured);
+  Comparison result{(fix.position_m - walked_m).norm()};
   const bool is_large = result.difference_m > options_.threshold_m;
   if (options_.mode == DecisionMode::kEveryFix || is_large) {
     result.corrected = filter_.add(fix).has_value();

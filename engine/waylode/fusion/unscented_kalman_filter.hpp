@@ -78,8 +78,10 @@ class UnscentedKalmanFilter {
       result.noise_inflation = result.normalized_innovation_squared / gate;
       innovation_covariance += (result.noise_inflation - 1.0) * noise;
     }
-    const Eigen::Matrix<double, kStates, kRows> gain =
-        innovation_covariance.ldlt().solve(expected.cross_covariance.transpose()).transpose();
+    const Eigen::Matrix<double, kRows, kStates> gain_transposed =
+        innovation_covariance.ldlt().solve(
+            Eigen::Matrix<double, kRows, kStates>(expected.cross_covariance.transpose()));
+    const Eigen::Matrix<double, kStates, kRows> gain = gain_transposed.transpose();
     const State mean = mean_ + gain * innovation;
     Covariance covariance =
         symmetrised<kStates>(covariance_ - gain * innovation_covariance * gain.transpose());

@@ -16,6 +16,8 @@ std::unique_ptr<StepSource> make_detector(const DeadReckoning::Options& options)
   switch (options.detector) {
     case Detector::kThreshold:
       return std::make_unique<StepDetector>(options.step);
+    case Detector::kCadence:
+      return std::make_unique<CadenceStepDetector>(options.cadence);
     case Detector::kAdaptivePeaks:
       return std::make_unique<AdaptivePeakDetector>(options.adaptive_peaks);
     case Detector::kGaussianPeaks:
@@ -30,6 +32,8 @@ double longest_interval_s(const DeadReckoning::Options& options) {
   switch (options.detector) {
     case Detector::kThreshold:
       return options.step.longest_interval_s;
+    case Detector::kCadence:
+      return options.cadence.pause_s;
     case Detector::kAdaptivePeaks:
       return options.adaptive_peaks.longest_interval_s;
     case Detector::kGaussianPeaks:
@@ -53,8 +57,8 @@ StepValidity::Options validity_options(const DeadReckoning::Options& options) {
 core::Result<void> DeadReckoning::Options::validate() const {
   for (const core::Result<void>& part :
        {gravity.validate(), heading.validate(), step.validate(), stride.validate(),
-        adaptive_peaks.validate(), gaussian_peaks.validate(), extrema.validate(),
-        step_validity.validate(), compass.validate()}) {
+        cadence.validate(), adaptive_peaks.validate(), gaussian_peaks.validate(),
+        extrema.validate(), step_validity.validate(), compass.validate()}) {
     if (!part) return part;
   }
   if (!(step_heading_sigma_rad > 0.0 && step_length_sigma_ratio > 0.0)) {

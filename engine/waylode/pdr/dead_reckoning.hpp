@@ -9,6 +9,7 @@
 #include "waylode/core/result.hpp"
 #include "waylode/observation/observation.hpp"
 #include "waylode/pdr/adaptive_peak_detector.hpp"
+#include "waylode/pdr/cadence_step_detector.hpp"
 #include "waylode/pdr/compass_heading_filter.hpp"
 #include "waylode/pdr/extremum_step_detector.hpp"
 #include "waylode/pdr/gaussian_peak_detector.hpp"
@@ -26,6 +27,7 @@ class DeadReckoning {
  public:
   enum class Detector {
     kThreshold,      ///< StepDetector.
+    kCadence,        ///< CadenceStepDetector.
     kAdaptivePeaks,  ///< AdaptivePeakDetector.
     kGaussianPeaks,  ///< GaussianPeakDetector.
     kExtrema,        ///< ExtremumStepDetector.
@@ -47,6 +49,7 @@ class DeadReckoning {
     Detector detector = Detector::kThreshold;
     Validity validity = Validity::kOff;
     HeadingSource heading_source = HeadingSource::kRotationVector;
+    CadenceStepDetector::Options cadence;
     AdaptivePeakDetector::Options adaptive_peaks;
     GaussianPeakDetector::Options gaussian_peaks;
     ExtremumStepDetector::Options extrema;

@@ -49,7 +49,7 @@ class StrideModel {
     double scarlett_gain_m = 1.3;  ///< [Wu2019] eq. (7) K; not given there, > 0.
     double kim_gain = 0.47;        ///< [Wu2019] eq. (8) K; not given there, > 0.
     int kim_root = 3;              ///< 2 as printed.
-    StrideGains gains;             ///< Of kImproved; scale_ratio of all.
+    StrideGains gains{};           ///< Of kImproved; scale_ratio of all.
     MeanAcceleration mean_acceleration = MeanAcceleration::kAbsolute;
     double height_m = 1.70;     ///< Of the person, for the last three models; [1, 2.5].
     double person_ratio = 1.0;  ///< The person's own factor on those; > 0.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/pipeline/estimator.hpp"
 
-#include "waylode/core/assert.hpp"
+#include "waylode/pipeline/paper_estimators.hpp"
 
 namespace waylode::pipeline {
 namespace {
@@ -10,8 +10,21 @@ namespace {
 using observation::MotionDelta;
 using observation::RadioObservation;
 
+/// Estimators that have no use for the field nor for a second match.
+class RadioEstimator : public Estimator {
+ public:
+  using Estimator::add;
+  void add(const RadioObservation& observation, const NearMatch& /*near*/) final {
+    hear(observation);
+  }
+  void add(const observation::MagneticObservation& /*observation*/) final {}
+
+ private:
+  virtual void hear(const RadioObservation& observation) = 0;
+};
+
 /// The newest scan alone, doubted more as it ages; the floor by the votes of all.
-class WknnMethod final : public Estimator {
+class WknnMethod final : public RadioEstimator {
  public:
   WknnMethod(const Model& model, const SessionOptions& options)
       : model_(&model),
@@ -19,8 +32,9 @@ class WknnMethod final : public Estimator {
         known_floor_(options.known_floor),
         floor_filter_(model.options().fused.floor, model.site()->floors().size()) {}
 
+  using RadioEstimator::add;
   void add(const MotionDelta&) override {}
-  void add(const RadioObservation& observation) override {
+  void hear(const RadioObservation& observation) override {
     floor_filter_.add(observation);
     newest_scan_ = fusion::HeardScan{observation.delivered, observation.known_share_ratio};
     const core::FloorId floor = known_floor_.value_or(*floor_filter_.most_likely());
@@ -55,19 +69,21 @@ class WknnMethod final : public Estimator {
 };
 
 /// The causal tracker; without scans, from a known start, it is plain dead reckoning.
-class FusedMethod final : public Estimator {
+class FusedMethod final : public RadioEstimator {
  public:
   FusedMethod(const Model& model, const SessionOptions& options, bool hears)
       : tracker_(model.site(), model.options().fused, options.known_floor), hears_(hears) {
-    if (!hears) {
+    if (!hears && options.start) {
       tracker_.start(options.start->time, options.start->floor, options.start->position_m,
                      options.start->sigma_m);
     }
   }
 
+  using RadioEstimator::add;
   void add(const MotionDelta& motion) override { tracker_.add(motion); }
-  void add(const RadioObservation& observation) override {
-    if (hears_) tracker_.add(observation);
+  void hear(const RadioObservation& observation) override {
+    // Dead reckoning without a start takes it from the first scan.
+    if (hears_ || !tracker_.planar().started()) tracker_.add(observation);
   }
   void hear_unknown(core::DeviceTime delivered) override {
     if (hears_) tracker_.hear_unknown(delivered);
@@ -84,13 +100,14 @@ class FusedMethod final : public Estimator {
   bool hears_;
 };
 
-class FixedLagMethod final : public Estimator {
+class FixedLagMethod final : public RadioEstimator {
  public:
   FixedLagMethod(const Model& model, const SessionOptions& options, core::Duration lag)
       : tracker_(model.site(), model.options().fused, options.known_floor, lag) {}
 
+  using RadioEstimator::add;
   void add(const MotionDelta& motion) override { tracker_.add(motion); }
-  void add(const RadioObservation& observation) override { tracker_.add(observation); }
+  void hear(const RadioObservation& observation) override { tracker_.add(observation); }
   void hear_unknown(core::DeviceTime delivered) override { tracker_.hear_unknown(delivered); }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
     return tracker_.belief_at(time);
@@ -103,13 +120,14 @@ class FixedLagMethod final : public Estimator {
   smoothing::FixedLagTracker tracker_;
 };
 
-class WholeTrackMethod final : public Estimator {
+class WholeTrackMethod final : public RadioEstimator {
  public:
   WholeTrackMethod(const Model& model, const SessionOptions& options)
       : smoother_(model.site(), model.options().smoothing_options(), options.known_floor) {}
 
+  using RadioEstimator::add;
   void add(const MotionDelta& motion) override { smoother_.add(motion); }
-  void add(const RadioObservation& observation) override { smoother_.add(observation); }
+  void hear(const RadioObservation& observation) override { smoother_.add(observation); }
   void hear_unknown(core::DeviceTime delivered) override { smoother_.hear_unknown(delivered); }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
     return smoother_.belief_at(time);
@@ -126,20 +144,20 @@ class WholeTrackMethod final : public Estimator {
 
 std::unique_ptr<Estimator> make_estimator(const Model& model, const Method& method,
                                           const SessionOptions& options) {
-  switch (method.kind) {
-    case MethodKind::kWknn:
+  switch (method.recipe.fusion) {
+    case FusionPart::kNewestScan:
       return std::make_unique<WknnMethod>(model, options);
-    case MethodKind::kPdr:
-      WAYLODE_ASSERT(options.start.has_value());
+    case FusionPart::kDeadReckoning:
       return std::make_unique<FusedMethod>(model, options, /*hears=*/false);
-    case MethodKind::kFused:
+    case FusionPart::kRobust:
       return std::make_unique<FusedMethod>(model, options, /*hears=*/true);
-    case MethodKind::kFixedLag:
+    case FusionPart::kFixedLag:
       return std::make_unique<FixedLagMethod>(model, options, method.lag);
-    case MethodKind::kWholeTrack:
-      break;
+    case FusionPart::kWholeTrack:
+      return std::make_unique<WholeTrackMethod>(model, options);
+    default:
+      return make_paper_estimator(method.recipe.fusion, model, options);
   }
-  return std::make_unique<WholeTrackMethod>(model, options);
 }
 
 }  // namespace waylode::pipeline

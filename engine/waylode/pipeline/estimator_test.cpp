@@ -24,6 +24,19 @@ std::unique_ptr<Estimator> make(const Model& model, const char* method,
   return make_estimator(model, *find_method(method), options);
 }
 
+/// For estimators that match no scan twice.
+NearMatch nowhere() {
+  return [](const core::Belief&) { return std::nullopt; };
+}
+
+void tell(Estimator& estimator, const observation::RadioObservation& scan) {
+  estimator.add(scan, nowhere());
+}
+template <typename Tracker>
+void tell(Tracker& tracker, const observation::RadioObservation& scan) {
+  tracker.add(scan);
+}
+
 /// Steps east and scans that come 0.4 s late, one far off.
 template <typename Tracker>
 void walk(Tracker& tracker) {
@@ -31,7 +44,7 @@ void walk(Tracker& tracker) {
     tracker.add(step_of(0.5 * i, 0.5 * (i + 1), 0.7, 0.02 * i));
     if (i % 5 != 4) continue;
     const double x_m = i == 19 ? 39.0 : 5.0 + 0.7 * i;
-    tracker.add(heard(0.5 * (i + 1), {{0, 0.0, {x_m, 4.0}}, {1, -2.0, {x_m, 6.0}}}, 0.8, 0.4));
+    tell(tracker, heard(0.5 * (i + 1), {{0, 0.0, {x_m, 4.0}}, {1, -2.0, {x_m, 6.0}}}, 0.8, 0.4));
   }
 }
 
@@ -39,9 +52,9 @@ TEST(WknnMethod, BelievesTheNewestScanAlone) {
   const auto model = tiny_model();
   const auto wknn = make(*model, "wknn");
   EXPECT_EQ(wknn->belief_at(at_s(0.0)), std::nullopt);
-  wknn->add(heard(1.0, {{0, 0.0, {3.0, 4.0}}}));
+  wknn->add(heard(1.0, {{0, 0.0, {3.0, 4.0}}}), nowhere());
   wknn->add(step_of(1.0, 1.5, 0.7, 0.0));
-  wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}}));
+  wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}}), nowhere());
   const auto belief = wknn->belief_at(at_s(4.0));
   ASSERT_TRUE(belief);
   EXPECT_EQ(belief->position_m, Vector2(30.0, 5.0));
@@ -51,7 +64,7 @@ TEST(WknnMethod, BelievesTheNewestScanAlone) {
 TEST(WknnMethod, LosesConfidenceAsItsScanAges) {
   const auto model = tiny_model();
   const auto wknn = make(*model, "wknn");
-  wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}, {1, -9.0, {30.0, 5.0}}}));
+  wknn->add(heard(2.0, {{0, 0.0, {30.0, 5.0}}, {1, -9.0, {30.0, 5.0}}}), nowhere());
   const auto sigma_m = [&](double time_s) {
     const auto belief = wknn->belief_at(at_s(time_s));
     EXPECT_EQ(belief->position_m, Vector2(30.0, 5.0));
@@ -71,9 +84,9 @@ TEST(WknnMethod, TakesTheFloorByTheVotesOfAllScans) {
   const auto model = tiny_model();
   const auto wknn = make(*model, "wknn");
   for (int i = 0; i < 10; ++i) {
-    wknn->add(heard(1.0 * i, {{1, 0.0, {3.0, 4.0}}, {0, -3.0, {9.0, 9.0}}}));
+    wknn->add(heard(1.0 * i, {{1, 0.0, {3.0, 4.0}}, {0, -3.0, {9.0, 9.0}}}), nowhere());
   }
-  wknn->add(heard(10.0, {{0, 0.0, {9.0, 9.0}}, {1, -3.0, {5.0, 6.0}}}));
+  wknn->add(heard(10.0, {{0, 0.0, {9.0, 9.0}}, {1, -3.0, {5.0, 6.0}}}), nowhere());
   const auto belief = wknn->belief_at(at_s(10.0));
   EXPECT_EQ(belief->floor, FloorId{1});
   EXPECT_EQ(belief->position_m, Vector2(5.0, 6.0));
@@ -83,10 +96,10 @@ TEST(WknnMethod, TakesTheFloorByTheVotesOfAllScans) {
 TEST(WknnMethod, KeepsItsPlaceWhenTheKnownFloorIsNotHeard) {
   const auto model = tiny_model();
   const auto wknn = make(*model, "wknn", {.known_floor = FloorId{1}, .start = {}});
-  wknn->add(heard(1.0, {{0, 0.0, {3.0, 4.0}}}));
+  wknn->add(heard(1.0, {{0, 0.0, {3.0, 4.0}}}), nowhere());
   EXPECT_EQ(wknn->belief_at(at_s(1.0)), std::nullopt);
-  wknn->add(heard(2.0, {{0, 0.0, {3.0, 4.0}}, {1, -9.0, {7.0, 8.0}}}));
-  wknn->add(heard(3.0, {{0, 0.0, {5.0, 5.0}}}));
+  wknn->add(heard(2.0, {{0, 0.0, {3.0, 4.0}}, {1, -9.0, {7.0, 8.0}}}), nowhere());
+  wknn->add(heard(3.0, {{0, 0.0, {5.0, 5.0}}}), nowhere());
   const auto belief = wknn->belief_at(at_s(3.0));
   ASSERT_TRUE(belief);
   EXPECT_EQ(belief->floor, FloorId{1});
@@ -98,7 +111,7 @@ TEST(PdrMethod, AddsStepsToItsStartAndHearsNothing) {
   const auto model = tiny_model();
   const auto pdr = make(*model, "pdr", testing::started_at({10.0, 5.0}));
   EXPECT_LT((pdr->belief_at(at_s(0.0))->position_m - Vector2(10.0, 5.0)).norm(), 1e-12);
-  pdr->add(heard(0.2, {{1, 0.0, {35.0, 1.0}}}));
+  pdr->add(heard(0.2, {{1, 0.0, {35.0, 1.0}}}), nowhere());
   pdr->add(step_of(0.0, 0.5, 0.8, 0.5 * std::acos(-1.0)));
   pdr->add(step_of(0.5, 1.0, 0.6, 0.0));
   const auto belief = pdr->belief_at(at_s(1.0));

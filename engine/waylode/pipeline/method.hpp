@@ -2,32 +2,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/pipeline/recipe.hpp"
 
 namespace waylode::pipeline {
 
-enum class MethodKind { kWknn, kPdr, kFused, kFixedLag, kWholeTrack };
-
 /// A named, configured way to positions; `waylode methods` lists them.
 struct Method {
-  std::string_view name;
-  MethodKind kind = MethodKind::kFused;
-  core::Duration lag{};  ///< How late an answer comes; only for kFixedLag.
-  std::string_view summary;
-  std::string_view source;
-  std::string_view needs;
+  std::string name;
+  Recipe recipe;
+  core::Duration lag{};  ///< How late an answer comes; above zero for fusion=fixed_lag alone.
+  std::string summary;
+  std::string source;
+  std::string needs;
 
-  bool whole_track() const { return kind == MethodKind::kWholeTrack; }
+  bool whole_track() const { return recipe.fusion == FusionPart::kWholeTrack; }
+  /// Cannot find a start by itself.
+  bool needs_start() const { return recipe.radio == RadioPart::kNone; }
 };
 
+/// The named methods, in the order they are listed.
 std::span<const Method> methods();
-/// kMethodUnknown, naming the known ones.
+
+/// A named method, or a mixture: a named method with parts replaced, such as
+/// "wu2019+stride=kim+fusion=pairs". kMethodUnknown, naming what is known; kInvalidArgument for a
+/// mixture that makes no sense.
 core::Result<Method> find_method(std::string_view name);
 
 }  // namespace waylode::pipeline

@@ -16,8 +16,9 @@ using ::testing::HasSubstr;
 TEST(Methods, AreThoseThatTheEvaluationNames) {
   std::vector<std::string_view> names;
   for (const Method& method : methods()) names.push_back(method.name);
-  EXPECT_THAT(names, ElementsAre("wknn", "pdr", "fused", "smoothed_lag5", "smoothed_lag10",
-                                 "smoothed_lag30", "smoothed"));
+  EXPECT_THAT(names,
+              ElementsAre("wknn", "pdr", "wu2019", "zhou2016", "zhao2019", "zhong2017", "fused",
+                          "smoothed_lag5", "smoothed_lag10", "smoothed_lag30", "smoothed"));
 }
 
 TEST(Methods, SayWhatTheyAreAndNeed) {
@@ -33,7 +34,7 @@ TEST(FindMethod, FindsEveryMethodByItsName) {
     const auto found = find_method(method.name);
     ASSERT_TRUE(found) << method.name;
     EXPECT_EQ(found->name, method.name);
-    EXPECT_EQ(found->kind, method.kind);
+    EXPECT_EQ(found->recipe, method.recipe);
   }
 }
 
@@ -58,6 +59,52 @@ TEST(FindMethod, NamesAllKnownMethodsWhenAskedForAnother) {
       EXPECT_THAT(found.error().message, HasSubstr(std::string(method.name)));
     }
   }
+}
+
+TEST(FindMethod, MixesPartsIntoANamedMethod) {
+  const auto mixed = find_method("wu2019+stride=kim+fusion=pairs");
+  ASSERT_TRUE(mixed) << mixed.error().message;
+  EXPECT_EQ(mixed->name, "wu2019+stride=kim+fusion=pairs");
+  Recipe expected = find_method("wu2019")->recipe;
+  expected.stride = pdr::StrideModel::Model::kKim;
+  expected.fusion = FusionPart::kPairs;
+  EXPECT_EQ(mixed->recipe, expected);
+}
+
+TEST(FindMethod, RefusesMixturesThatMakeNoSense) {
+  for (const char* name : {"fused+fusion=fixed_lag", "smoothed_lag5+fusion=robust",
+                           "fused+radio=none", "fused+magnetic=sequence"}) {
+    const auto found = find_method(name);
+    ASSERT_FALSE(found) << name;
+    EXPECT_EQ(found.error().code, core::ErrorCode::kInvalidArgument) << name;
+    EXPECT_EQ(found.error().place, name);
+  }
+  for (const char* name : {"fused+", "fused+stride", "fused+stride=kim+", "kalman+stride=kim"}) {
+    const auto found = find_method(name);
+    ASSERT_FALSE(found) << name;
+    EXPECT_EQ(found.error().code, core::ErrorCode::kMethodUnknown) << name;
+  }
+}
+
+TEST(Methods, OfThePapersAreTheRecipesOfTheSpecification) {
+  const Recipe wu = find_method("wu2019")->recipe;
+  EXPECT_EQ(part_name(wu, "steps"), "adaptive_peaks");
+  EXPECT_EQ(part_name(wu, "stride"), "improved");
+  EXPECT_EQ(part_name(wu, "radio"), "region_wknn");
+  EXPECT_EQ(part_name(wu, "fusion"), "unscented");
+  const Recipe zhou = find_method("zhou2016")->recipe;
+  EXPECT_EQ(part_name(zhou, "stride"), "weinberg");
+  EXPECT_EQ(part_name(zhou, "radio"), "window_knn");
+  EXPECT_EQ(part_name(zhou, "magnetic"), "sequence");
+  const Recipe zhao = find_method("zhao2019")->recipe;
+  EXPECT_EQ(part_name(zhao, "steps"), "gaussian_peaks");
+  EXPECT_EQ(part_name(zhao, "radio"), "relevance_vectors");
+  EXPECT_EQ(part_name(zhao, "fusion"), "feedback");
+  const Recipe zhong = find_method("zhong2017")->recipe;
+  EXPECT_EQ(part_name(zhong, "steps"), "extrema");
+  EXPECT_EQ(part_name(zhong, "validity"), "three_way");
+  EXPECT_EQ(part_name(zhong, "stride"), "chen");
+  EXPECT_TRUE(find_method("zhong2017")->needs_start());
 }
 
 }  // namespace

@@ -3,10 +3,21 @@
 #pragma once
 
 #include "waylode/core/result.hpp"
+#include "waylode/fusion/decision_flow.hpp"
+#include "waylode/fusion/feedback_tracker.hpp"
 #include "waylode/fusion/fused_tracker.hpp"
+#include "waylode/fusion/zhou_tracker.hpp"
+#include "waylode/magnetic/field_grid.hpp"
+#include "waylode/magnetic/sequence_matcher.hpp"
 #include "waylode/pdr/dead_reckoning.hpp"
+#include "waylode/radio/circle_knn.hpp"
+#include "waylode/radio/knn_positioner.hpp"
 #include "waylode/radio/matcher.hpp"
+#include "waylode/radio/reference_map.hpp"
+#include "waylode/radio/region_wknn.hpp"
+#include "waylode/radio/regression_positioner.hpp"
 #include "waylode/radio/scan_assembler.hpp"
+#include "waylode/radio/window_knn.hpp"
 #include "waylode/radio/wknn.hpp"
 #include "waylode/smoothing/smoothed_tracker.hpp"
 #include "waylode/survey/map_builder.hpp"
@@ -15,11 +26,30 @@ namespace waylode::pipeline {
 
 /// Every tunable of the engine. Defaults live in the components; one set serves all buildings.
 struct Options {
+  /// When the field is matched, and how.
+  struct FieldMatch {
+    double interval_s = 1.0;  ///< Between two matches; each costs a fraction of a millisecond.
+    magnetic::FieldGrid::Options grid;
+    magnetic::SequenceMatcher::Options sequence;
+
+    bool operator==(const FieldMatch&) const = default;
+  };
+
   radio::ScanAssembler::Options scan;
   radio::Matcher::Options matcher;
   radio::WknnEstimator::Options wknn;
   double bluetooth_alone_after_s = 3.5;  ///< Without Wi-Fi this long, Bluetooth is matched alone.
+  radio::ReferenceMap::Options references;  ///< For the papers' ways of placing scans.
+  radio::KnnPositioner::Options knn;
+  radio::RegionWknn::Options region;
+  radio::WindowKnn::Options window;
+  radio::CircleKnn::Options circle;
+  radio::RegressionPositioner::Options regression;  ///< Its kind is the method's choice.
   pdr::DeadReckoning::Options pdr;
+  FieldMatch field;
+  fusion::DecisionFlow::Options decision;
+  fusion::ZhouTracker::Options interval;
+  fusion::FeedbackTracker::Options feedback;
   fusion::FusedTracker::Options fused;
   int smoothing_rounds = smoothing::TrackSmoother::Options{}.rounds;
   survey::LabelledPath::Options labels;

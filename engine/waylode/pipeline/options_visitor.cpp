@@ -4,33 +4,14 @@
 
 #include <array>
 
+#include "waylode/pipeline/detail/option_table.hpp"
+
 namespace waylode::pipeline {
 namespace {
 
-using Visit = std::function<void(const OptionRef&)>;
-
-constexpr double kHuge = 1e6;
-
-/// Visits the members of one table.
-class Table {
- public:
-  Table(std::string_view name, const Visit& visit) : name_(name), visit_(&visit) {}
-
-  template <typename Number>
-  const Table& number(std::string_view name, Number& target, double smallest, double largest,
-                      std::string_view comment) const {
-    (*visit_)({name_, name, &target, smallest, largest, comment});
-    return *this;
-  }
-  const Table& choice(std::string_view name, Choice choice, std::string_view comment) const {
-    (*visit_)({name_, name, std::move(choice), 0.0, 0.0, comment});
-    return *this;
-  }
-
- private:
-  std::string_view name_;
-  const Visit* visit_;
-};
+using detail::kHuge;
+using detail::Table;
+using detail::Visit;
 
 Choice distance_choice(radio::Distance& distance) {
   static constexpr std::array<std::string_view, 5> kNames = {"euclidean", "manhattan", "sorensen",
@@ -207,6 +188,7 @@ void for_each_option(Options& options, const Visit& visit) {
   visit_radio(options, visit);
   visit_pdr(options, visit);
   visit_fused(options, visit);
+  detail::visit_paper_options(options, visit);
   visit_survey(options, visit);
 }
 

@@ -5,25 +5,24 @@
 #include <algorithm>
 #include <utility>
 
-#include "waylode/core/assert.hpp"
+#include "waylode/pdr/dead_reckoning.hpp"
 #include "waylode/pipeline/estimator.hpp"
+#include "waylode/pipeline/field_matching.hpp"
+#include "waylode/radio/scan_assembler.hpp"
+#include "waylode/radio/wknn.hpp"
 
 namespace waylode::pipeline {
+namespace {
 
-Model::Model(std::shared_ptr<const site::Site> site, const Options& options, radio::Matcher matcher)
-    : site_(std::move(site)), options_(options), matcher_(std::move(matcher)) {}
-
-core::Result<std::shared_ptr<const Model>> Model::create(std::shared_ptr<const site::Site> site,
-                                                         const Options& options) {
-  if (auto valid = options.validate(); !valid) return tl::unexpected(valid.error());
-  if (site->radio_map().empty()) {
-    return core::fail(core::ErrorCode::kMapMissing,
-                      "the site has no radio map; build it from surveyed logs", site->name());
-  }
-  auto matcher = radio::Matcher::create(site->radio_map(), options.matcher);
-  if (!matcher) return tl::unexpected(matcher.error());
-  return std::shared_ptr<const Model>(new Model(std::move(site), options, *std::move(matcher)));
+pdr::DeadReckoning::Options with_parts(pdr::DeadReckoning::Options options, const Recipe& recipe) {
+  options.detector = recipe.steps;
+  options.validity = recipe.validity;
+  options.stride.model = recipe.stride;
+  options.heading_source = recipe.heading;
+  return options;
 }
+
+}  // namespace
 
 struct Session::Pipeline {
   std::shared_ptr<const Model> model;
@@ -31,19 +30,31 @@ struct Session::Pipeline {
   SessionOptions options;
   pdr::DeadReckoning reckoning;
   radio::ScanAssembler assembler;
-  radio::WknnEstimator wknn;
+  radio::WknnEstimator foreign;                         ///< Tells scans of elsewhere.
+  std::shared_ptr<const radio::Positioner> positioner;  ///< None: the method has no radio.
+  std::unique_ptr<FieldMatching> field;  ///< None: the method has no use for the field.
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
   std::optional<core::DeviceTime> quiet_since;  ///< No scan, and no try with Bluetooth alone.
 
   void hear(const radio::Query& query) {
-    const auto observation = wknn.estimate(query, options.known_floor);
-    if (!observation) {
-      if (wknn.is_foreign(query)) estimator->hear_unknown(query.delivered);
+    if (!positioner) return;
+    const auto placed = positioner->estimate(query, options.known_floor, std::nullopt);
+    if (!placed) {
+      if (foreign.is_foreign(query)) estimator->hear_unknown(query.delivered);
       return;
     }
-    estimator->add(*observation);
+    estimator->add(placed->observation,
+                   [&](const core::Belief& around) { return match_near(query, around); });
     last_scan = query.delivered;
+  }
+
+  std::optional<observation::RadioObservation> match_near(const radio::Query& query,
+                                                          const core::Belief& around) const {
+    const auto near = model->near_positioner();
+    if (!near) return std::nullopt;
+    auto again = (*near)->estimate(query, around.floor, around);
+    return again ? std::optional(std::move(again->observation)) : std::nullopt;
   }
 
   /// Advertisements wait for the next Wi-Fi scan; when none comes they are matched by themselves.
@@ -56,6 +67,14 @@ struct Session::Pipeline {
     quiet_since = advertisement.time;
     hear(assembler.assemble_bluetooth(advertisement.time));
   }
+
+  void move(const sample::Sample& sample) {
+    const auto motion = reckoning.add(sample);
+    if (motion) estimator->add(*motion);
+    if (!field) return;
+    const auto observation = field->add(sample, motion, reckoning.up_in_device(), *estimator);
+    if (observation) estimator->add(*observation);
+  }
 };
 
 Session::Session(std::unique_ptr<Pipeline> pipeline) : pipeline_(std::move(pipeline)) {}
@@ -65,9 +84,9 @@ Session::~Session() = default;
 
 core::Result<Session> Session::create(std::shared_ptr<const Model> model, const Method& method,
                                       const SessionOptions& options) {
-  if (method.kind == MethodKind::kPdr && !options.start) {
+  if (method.needs_start() && !options.start) {
     return core::fail(core::ErrorCode::kInvalidArgument,
-                      "this method needs a known start (floor, x, y)", std::string(method.name));
+                      "this method needs a known start (floor, x, y)", method.name);
   }
   const std::size_t floor_count = model->site()->floors().size();
   for (const auto& floor :
@@ -78,10 +97,24 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
     }
   }
   const Options& tunables = model->options();
+  const Recipe& recipe = method.recipe;
+  std::shared_ptr<const radio::Positioner> positioner;
+  if (recipe.radio != RadioPart::kNone) {
+    auto made = model->positioner(recipe.radio);
+    if (!made) return tl::unexpected(made.error());
+    positioner = *std::move(made);
+  }
+  std::unique_ptr<FieldMatching> field;
+  if (recipe.magnetic != MagneticPart::kNone) {
+    auto fields = model->fields();
+    if (!fields) return tl::unexpected(fields.error());
+    field = std::make_unique<FieldMatching>(model->site(), *std::move(fields), tunables.field);
+  }
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
-      model, method, options, pdr::DeadReckoning(tunables.pdr), radio::ScanAssembler(tunables.scan),
-      radio::WknnEstimator(model->matcher(), tunables.wknn),
-      make_estimator(*model, method, options), std::nullopt, std::nullopt});
+      model, method, options, pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
+      radio::ScanAssembler(tunables.scan), radio::WknnEstimator(model->matcher(), tunables.wknn),
+      std::move(positioner), std::move(field), make_estimator(*model, method, options),
+      std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 
@@ -90,8 +123,8 @@ void Session::push(const sample::Sample& sample) {
     pipeline_->hear(pipeline_->assembler.assemble(*scan));
   } else if (const auto* advertisement = std::get_if<sample::BleReading>(&sample)) {
     pipeline_->hear(*advertisement);
-  } else if (const auto motion = pipeline_->reckoning.add(sample)) {
-    pipeline_->estimator->add(*motion);
+  } else {
+    pipeline_->move(sample);
   }
 }
 
@@ -100,7 +133,7 @@ core::Fix Session::fix_at(core::DeviceTime time) const {
   fix.time = time;
   fix.belief = pipeline_->estimator->belief_at(time);
   if (fix.belief) fix.state = pipeline_->estimator->state_at(time, *fix.belief);
-  fix.provenance = {std::string(pipeline_->method.name), pipeline_->model->site()->version(),
+  fix.provenance = {pipeline_->method.name, pipeline_->model->site()->version(),
                     pipeline_->last_scan};
   return fix;
 }

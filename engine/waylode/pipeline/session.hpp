@@ -10,31 +10,11 @@
 #include "waylode/core/fix.hpp"
 #include "waylode/core/result.hpp"
 #include "waylode/pipeline/method.hpp"
-#include "waylode/pipeline/options.hpp"
-#include "waylode/radio/matcher.hpp"
+#include "waylode/pipeline/model.hpp"
 #include "waylode/sample/sample.hpp"
 #include "waylode/site/site.hpp"
 
 namespace waylode::pipeline {
-
-/// A site made ready for positioning: its radio map indexed once, shared by all sessions.
-class Model {
- public:
-  /// kMapMissing for a site without a radio map, kInvalidOptions for options out of range.
-  static core::Result<std::shared_ptr<const Model>> create(std::shared_ptr<const site::Site> site,
-                                                           const Options& options);
-
-  const std::shared_ptr<const site::Site>& site() const { return site_; }
-  const Options& options() const { return options_; }
-  const radio::Matcher& matcher() const { return matcher_; }
-
- private:
-  Model(std::shared_ptr<const site::Site> site, const Options& options, radio::Matcher matcher);
-
-  std::shared_ptr<const site::Site> site_;
-  Options options_;
-  radio::Matcher matcher_;
-};
 
 /// A place to start from, for methods that cannot find one by themselves.
 struct StartPose {
@@ -46,7 +26,7 @@ struct StartPose {
 
 struct SessionOptions {
   std::optional<core::FloorId> known_floor;  ///< Told from outside; then never doubted.
-  std::optional<StartPose> start;            ///< Needed by `pdr`, used by nothing else.
+  std::optional<StartPose> start;  ///< For methods that need one; the papers' take it if given.
 };
 
 class Estimator;
@@ -55,7 +35,7 @@ class Estimator;
 class Session {
  public:
   /// kInvalidArgument when the method needs a start and none is given, or for a floor that the
-  /// site does not have.
+  /// site does not have; kMapMissing when the site lacks a map that the method needs.
   static core::Result<Session> create(std::shared_ptr<const Model> model, const Method& method,
                                       const SessionOptions& options);
   Session(Session&&) noexcept;

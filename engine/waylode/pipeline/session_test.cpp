@@ -24,7 +24,7 @@ using testing::tiny_walk;
 
 Session session_of(const Method& method, std::optional<FloorId> known_floor = std::nullopt) {
   SessionOptions options;
-  if (method.kind == MethodKind::kPdr) options = started_at({10.0, 5.0});
+  if (method.needs_start()) options = started_at({10.0, 5.0});
   options.known_floor = known_floor;
   return *Session::create(tiny_model(), method, options);
 }
@@ -99,7 +99,7 @@ TEST(Session, RefusesFloorsThatTheSiteDoesNotHave) {
 TEST(Session, NeverMakesUpAPositionWithoutWifi) {
   const auto samples = testing::bouncing(0.0, 10.0);
   for (const Method& method : methods()) {
-    if (method.kind == MethodKind::kPdr) continue;
+    if (method.needs_start()) continue;
     for (const core::Fix& fix : replayed(method, samples, instants(0.0, 12.0, 1.5))) {
       EXPECT_EQ(fix.belief, std::nullopt) << method.name;
       EXPECT_EQ(fix.state, core::FixState::kUnknown) << method.name;
@@ -110,7 +110,7 @@ TEST(Session, NeverMakesUpAPositionWithoutWifi) {
 
 TEST(Session, NeverMakesUpAPositionFromTransmittersItDoesNotKnow) {
   for (const Method& method : methods()) {
-    if (method.kind == MethodKind::kPdr) continue;
+    if (method.needs_start()) continue;
     EXPECT_EQ(replayed(method, {foreign_scan(1.0, 10)}, {at_s(1.0)}).front().belief, std::nullopt)
         << method.name;
   }
@@ -118,7 +118,7 @@ TEST(Session, NeverMakesUpAPositionFromTransmittersItDoesNotKnow) {
 
 TEST(Session, IsOutsideOnceNothingHeardIsKnown) {
   for (const Method& method : methods()) {
-    if (method.kind == MethodKind::kPdr) continue;
+    if (method.needs_start()) continue;
     Session session = session_of(method, FloorId{0});
     for (int i = 0; i < 10; ++i) session.push(scan_at(2.0 * i, FloorId{0}, {14.0, 6.0}));
     EXPECT_NE(session.fix_at(at_s(18.0)).state, core::FixState::kOutside) << method.name;

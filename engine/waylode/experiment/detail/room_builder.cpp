@@ -92,6 +92,22 @@ std::vector<MagneticMapPoint> survey_field(const RoomPlan& plan, const sim::Worl
   return map;
 }
 
+/// The base map as a site keeps it, every point as it was measured.
+site::MagneticMapStorage magnetic_storage(const std::vector<MagneticMapPoint>& points) {
+  site::MagneticMapStorage storage;
+  for (const MagneticMapPoint& point : points) {
+    site::MagneticPoint stored;
+    stored.x_m = static_cast<float>(point.position_m.x());
+    stored.y_m = static_cast<float>(point.position_m.y());
+    stored.horizontal_ut = static_cast<float>(std::max(0.0, point.horizontal_ut));
+    stored.vertical_ut = static_cast<float>(point.vertical_ut);
+    stored.floor = kFloor.index;
+    stored.count = 1;
+    storage.points.push_back(stored);
+  }
+  return storage;
+}
+
 double first_heading_rad(const RoomPlan& plan) {
   const Vector2 along = plan.route_m[1] - plan.route_m[0];
   return std::atan2(along.y(), along.x());
@@ -147,8 +163,10 @@ core::Result<PaperRoom> build_room(const RoomPlan& plan, const sim::Scenario& sc
                  plan.route_m};
   site::RadioMapBuilder builder;
   survey_grid(plan, *world, room, builder);
-  room.site =
-      site::Site({plan.name, std::nullopt, {scenario.building.floors[0].floor}, builder.build()});
+  site::SiteParts parts{
+      plan.name, std::nullopt, {scenario.building.floors[0].floor}, builder.build()};
+  parts.magnetic_map = magnetic_storage(room.magnetic_map);
+  room.site = site::Site(std::move(parts));
   room.start_scans = world->standing_scans({kFloor, plan.route_m.front(), first_heading_rad(plan)},
                                            plan.start_scans, plan.start_interval_s, "start");
   return room;
