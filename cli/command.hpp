@@ -97,6 +97,7 @@ void add_convert(Verb& root);
 void add_site(Verb& root);
 void add_track(Verb& root);
 void add_evaluate(Verb& root);
+void add_reproduce(Verb& root);
 void add_methods(Verb& root);
 void add_config(Verb& root);
 void add_version(Verb& root);

@@ -21,6 +21,21 @@ Vector2 place_of(const MagneticPoint& point) {
   return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
 }
 
+/// Fewer readings come from one pass of one walk.
+constexpr int kSeveral = 4;
+
+double scatter_of(std::span<const MagneticPoint> points) {
+  double squares_ut2 = 0.0;
+  double count = 0.0;
+  for (const MagneticPoint& point : points) {
+    if (point.count < kSeveral) continue;
+    const double sigma_ut = static_cast<double>(point.sigma_ut);
+    squares_ut2 += point.count * sigma_ut * sigma_ut;
+    count += point.count - 1;
+  }
+  return count > 0.0 ? std::sqrt(squares_ut2 / count) : 0.0;
+}
+
 /// A node while it is drawn.
 struct Sum {
   double weight = 0.0;
@@ -43,6 +58,7 @@ core::Result<void> FieldGrid::Options::validate() const {
 
 FieldGrid::FieldGrid(std::span<const MagneticPoint> points, const Options& options) {
   if (points.empty()) return;
+  scatter_ut_ = scatter_of(points);
   lay_out(points, options);
   draw(points, options);
 }

@@ -34,6 +34,9 @@ class FieldGrid {
 
   bool empty() const { return nodes_.empty(); }
   double node_m() const { return node_m_; }
+  /// How far readings at one place differ, per part: root mean square over the places that average
+  /// several; 0 where none does. Walks, phones and labels that disagree make it large.
+  double scatter_ut() const { return scatter_ut_; }
 
   /// Between the nodes, bilinear; nullopt away from surveyed ground and for no finite position.
   std::optional<LevelField> at(const core::Vector2& position_m) const;
@@ -54,6 +57,7 @@ class FieldGrid {
   core::Vector2 node_at(std::size_t row, std::size_t column) const;
 
   double node_m_ = 0.0;
+  double scatter_ut_ = 0.0;
   core::Vector2 min_m_ = core::Vector2::Zero();
   std::size_t rows_ = 0;
   std::size_t columns_ = 0;

@@ -82,6 +82,21 @@ TEST(FieldGrid, HasNoSlopeInAFlatField) {
   EXPECT_NEAR(grid.gradient_utpm(Vector2(4.0, 4.0)).value(), 0.0, 1e-6);
 }
 
+TEST(FieldGrid, TellsHowFarReadingsAtOnePlaceDiffer) {
+  std::vector<MagneticPoint> points = {point(0.0F, 0.0F, 20.0F, -40.0F),
+                                       point(3.0F, 0.0F, 20.0F, -40.0F),
+                                       point(6.0F, 0.0F, 20.0F, -40.0F)};
+  points[0].count = 5;
+  points[0].sigma_ut = 2.0F;
+  points[1].count = 9;
+  points[1].sigma_ut = 4.0F;
+  points[2].count = 2;  // Too few to tell.
+  points[2].sigma_ut = 90.0F;
+  // Sample variance: squares 5 * 4 + 9 * 16 over 4 + 8.
+  EXPECT_NEAR(FieldGrid(points, options()).scatter_ut(), std::sqrt(164.0 / 12.0), 1e-6);
+  EXPECT_EQ(FieldGrid({}, options()).scatter_ut(), 0.0);
+}
+
 TEST(FieldGrid, OfNothingKnowsNothing) {
   EXPECT_TRUE(FieldGrid{}.empty());
   EXPECT_FALSE(FieldGrid{}.at(Vector2::Zero()));

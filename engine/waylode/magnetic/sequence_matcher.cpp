@@ -56,7 +56,8 @@ std::optional<Fit> fit_window(const std::vector<PathField>& pieces, std::size_t 
                               const SequenceMatcher::Options& options) {
   const double independent_count =
       std::clamp(walked_m / options.correlation_m, 1.0, static_cast<double>(pieces.size()));
-  const double share = bias_share(options.bias_sigma_ut, options.field_sigma_ut, independent_count);
+  const double field_sigma_ut = std::hypot(options.field_sigma_ut, grid.scatter_ut());
+  const double share = bias_share(options.bias_sigma_ut, field_sigma_ut, independent_count);
   const auto least_known = static_cast<std::size_t>(
       std::ceil(options.least_known_ratio * static_cast<double>(piece_count)));
   const int turns = static_cast<int>(std::floor(options.largest_turn_rad / options.turn_step_rad));
@@ -67,7 +68,7 @@ std::optional<Fit> fit_window(const std::vector<PathField>& pieces, std::size_t 
     trials.insert(trials.end(), more.begin(), more.end());
   }
   return detail::fit_trials(trials, area,
-                            {independent_count, options.field_sigma_ut, options.widest_sigma_m});
+                            {independent_count, field_sigma_ut, options.widest_sigma_m});
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ class SequenceMatcher {
     /// The phone's own constant part of the field, per part: 0 trusts the phone (the literal
     /// equation), large takes the mean difference away entirely. See docs of the module.
     double bias_sigma_ut = 10.0;
-    double field_sigma_ut = 3.0;   ///< Of map against phone, per part, without the constant part.
-    double correlation_m = 1.5;    ///< Differences closer together on the path are one.
+    double field_sigma_ut = 3.0;   ///< Of the phone, per part, beside the map's own scatter.
+    double correlation_m = 3.0;    ///< Differences closer together on the path are one.
     double map_sigma_m = 0.5;      ///< Of the map's own places, per axis.
     double widest_sigma_m = 20.0;  ///< A direction less certain than this is not known at all.
 
