@@ -153,14 +153,14 @@ core::Result<Outcome> compare_on(const Dataset& dataset, const std::string& pape
     Figure figure;
     figure.id = experiment_id;
     figure.what = "mean error, " + name;
-    figure.unit = "m";
+    figure.unit = std::string("m");
     figure.ours = experiment::bootstrap(errors.back(), experiment::mean_of);
     outcome.figures.push_back(figure);
   }
   Figure gain;
   gain.id = experiment_id;
   gain.what = "best single method's mean less the fused one's";
-  gain.unit = "m";
+  gain.unit = std::string("m");
   gain.ours = experiment::bootstrap(errors, [](std::span<const std::vector<double>> values) {
     return std::min(experiment::mean_of(values[0]), experiment::mean_of(values[1])) -
            experiment::mean_of(values[2]);

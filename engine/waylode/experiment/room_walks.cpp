@@ -145,8 +145,8 @@ Figure mean_figure(const Trials& trials, const std::string& label, const std::st
                    const std::string& paper) {
   Figure figure;
   figure.id = id;
-  figure.what = "mean error, " + label;
-  figure.unit = "m";
+  figure.what = fmt::format("mean error, {}", label);
+  figure.unit = std::string("m");
   figure.paper = paper;
   figure.ours = bootstrap(trials.of(label), mean_of);
   return figure;
@@ -157,7 +157,7 @@ Figure within_figure(const Trials& trials, const std::string& label, double limi
   Figure figure;
   figure.id = id;
   figure.what = fmt::format("{} within {:g} m", label, limit_m);
-  figure.unit = "%";
+  figure.unit = std::string("%");
   figure.paper = paper;
   figure.ours = bootstrap(trials.of(label), [limit_m](std::span<const double> values) {
     return percent_within(values, limit_m);
@@ -169,8 +169,8 @@ Figure reduction_figure(const Trials& trials, const std::string& label, const st
                         const std::string& id, const std::string& paper) {
   Figure figure;
   figure.id = id;
-  figure.what = label + " below " + other;
-  figure.unit = "%";
+  figure.what = fmt::format("{} below {}", label, other);
+  figure.unit = std::string("%");
   figure.paper = paper;
   const std::vector<std::vector<Unit>> both = {trials.of(label), trials.of(other)};
   figure.ours = bootstrap(both, [](std::span<const std::vector<double>> values) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/experiment/step_length.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <algorithm>
@@ -157,8 +159,8 @@ Figure advantage(const std::vector<StepLengthResult>& results,
       absolute_errors(find_model(results, "improved"), chosen)};
   Figure figure;
   figure.id = "R-X5";
-  figure.what = "Weinberg's error less the improved one's, " + where;
-  figure.unit = "%";
+  figure.what = fmt::format("Weinberg's error less the improved one's, {}", where);
+  figure.unit = std::string("%");
   figure.paper = paper;
   figure.ours = bootstrap(methods, [](std::span<const std::vector<double>> values) {
     return mean_of(values[0]) - mean_of(values[1]);
@@ -266,8 +268,8 @@ core::Result<Outcome> step_length_outcome(std::span<const MeasuredWalk> walks) {
   for (const StepLengthResult& result : *results) {
     Figure figure;
     figure.id = "R-X5";
-    figure.what = "mean absolute error, " + result.model;
-    figure.unit = "%";
+    figure.what = fmt::format("mean absolute error, {}", result.model);
+    figure.unit = std::string("%");
     figure.ours = bootstrap(absolute_errors(result, all), mean_of);
     for (const double coefficient : result.coefficients) {
       figure.note += (figure.note.empty() ? "coefficients " : ", ") + std::to_string(coefficient);

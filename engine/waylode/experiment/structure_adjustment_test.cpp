@@ -55,8 +55,8 @@ TEST(StructureAdjustment, ReachesTheBarsOnTenSimulatedWalks) {
   core::Rng rng(2017);
   StructureAdjustmentOptions options;
   options.draws = 8;
-  const auto study = study_structure_adjustment(
-      simulate_walks(options.route, WalkStatistics{}, 80, rng), options);
+  const auto study =
+      study_structure_adjustment(simulate_walks(options.route, WalkStatistics{}, 80, rng), options);
   ASSERT_TRUE(study) << core::to_string(study.error());
   // What does not average out: the common -2.5 % bias.
   EXPECT_NEAR(study->mean.length_pct.value, 2.5, 0.8);

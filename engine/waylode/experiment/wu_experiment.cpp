@@ -93,7 +93,7 @@ core::Result<Outcome> teaching_building(const SimulationRequest& request,
   Figure gain;
   gain.id = "W-X4";
   gain.what = "better single method's mean less the fused one's";
-  gain.unit = "m";
+  gain.unit = std::string("m");
   const std::vector<std::vector<Unit>> three = {trials->of(kFingerprint), trials->of(kSteps),
                                                 trials->of(kFused)};
   gain.ours = bootstrap(three, [](std::span<const std::vector<double>> values) {

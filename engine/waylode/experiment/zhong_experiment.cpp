@@ -107,7 +107,7 @@ core::Result<Outcome> distance(const Kind& kind, const SimulationRequest& reques
     Figure figure;
     figure.id = kind.id;
     figure.what = std::string("distance error, ") + kRules[r].label;
-    figure.unit = "%";
+    figure.unit = std::string("%");
     figure.ours = bootstrap(errors[r], mean_of);
     if (r == kind.judged_rule) {
       figure.paper = kind.paper;
@@ -119,7 +119,7 @@ core::Result<Outcome> distance(const Kind& kind, const SimulationRequest& reques
   Figure integrated;
   integrated.id = "D-X4";
   integrated.what = "distance error, speed integration";
-  integrated.unit = "%";
+  integrated.unit = std::string("%");
   integrated.ours = bootstrap(errors.back(), mean_of);
   integrated.note = "the paper's table of other methods is missing from its text";
   outcome.figures.push_back(integrated);

@@ -4,6 +4,13 @@
 
 namespace waylode::pipeline {
 
+fusion::FeedbackTracker::Options Options::several_starts() {
+  fusion::FeedbackTracker::Options feedback;
+  feedback.reading = fusion::FeedbackReading::kFiltered;
+  feedback.hypotheses = 6;
+  return feedback;
+}
+
 core::Result<void> Options::validate() const {
   for (const core::Result<void>& part :
        {scan.validate(), matcher.validate(), wknn.validate(), references.validate(), knn.validate(),

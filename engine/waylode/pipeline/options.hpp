@@ -49,13 +49,20 @@ struct Options {
   FieldMatch field;
   fusion::DecisionFlow::Options decision;
   fusion::ZhouTracker::Options interval;
-  fusion::FeedbackTracker::Options feedback;
+  fusion::FeedbackTracker::Options feedback = several_starts();
   fusion::FusedTracker::Options fused;
   int smoothing_rounds = smoothing::TrackSmoother::Options{}.rounds;
   survey::LabelledPath::Options labels;
   survey::MovingTransmitterFilter::Options moving;
+  survey::MovingTransmitterFilter::Evidence moving_evidence =
+      survey::MovingTransmitterFilter::Evidence::kLoudPlaces;
+  survey::MagneticSurvey::Options magnetic_survey;
 
-  survey::MapBuilder::Options survey_options() const { return {scan, pdr, labels, moving}; }
+  /// Feedback as a filter from several starts: the paper's own never finds out of a wrong one.
+  static fusion::FeedbackTracker::Options several_starts();
+  survey::MapBuilder::Options survey_options() const {
+    return {scan, pdr, labels, moving, moving_evidence, magnetic_survey};
+  }
   smoothing::TrackSmoother::Options smoothing_options() const { return {fused, smoothing_rounds}; }
   core::Result<void> validate() const;
   bool operator==(const Options&) const = default;

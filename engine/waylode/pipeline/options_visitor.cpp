@@ -161,6 +161,13 @@ void visit_fused(Options& options, const Visit& visit) {
               "Passes over the track; scans are weighed again in each.");
 }
 
+Choice evidence_choice(survey::MovingTransmitterFilter::Evidence& evidence) {
+  using Evidence = survey::MovingTransmitterFilter::Evidence;
+  static constexpr std::array<std::string_view, 2> kNames = {"loud_places", "all"};
+  return {kNames, [&evidence] { return static_cast<std::size_t>(evidence); },
+          [&evidence](std::size_t index) { evidence = static_cast<Evidence>(index); }};
+}
+
 void visit_survey(Options& options, const Visit& visit) {
   Table("labels", visit)
       .number("widest_scale", options.labels.widest_scale, 1.000001, kHuge,
@@ -179,7 +186,24 @@ void visit_survey(Options& options, const Visit& visit) {
       .number("loud_dbm", options.moving.loud_dbm, -120.0, -0.5,
               "Heard this loudly, a transmitter is near.")
       .number("farthest_m", options.moving.farthest_m, kAboveZero, kHuge,
-              "Loud places farther apart mean that it moves; it is left out of the map.");
+              "Loud places farther apart mean that it moves; it is left out of the map.")
+      .choice("evidence", evidence_choice(options.moving_evidence),
+              "What tells: loud places, or visits and path loss as well.");
+  static constexpr std::array<std::string_view, 2> kWords = {"off", "on"};
+  const auto on_off = [](bool& target) {
+    return Choice{kWords, [&target] { return target ? std::size_t{1} : std::size_t{0}; },
+                  [&target](std::size_t index) { target = index == 1; }};
+  };
+  Table("magnetic_survey", visit)
+      .choice("build", on_off(options.magnetic_survey.build), "Make a magnetic map at all.")
+      .number("spacing_m", options.magnetic_survey.spacing_m, kAboveZero, 100.0,
+              "Of the walk that one reading averages.")
+      .choice("align_walks", on_off(options.magnetic_survey.align_walks),
+              "Take each phone's constant part away, where walks meet.")
+      .number("cell_m", options.magnetic_survey.cells.cell_m, 0.05, 100.0,
+              "Side of a cell of the map; smaller is sharper and larger.")
+      .number("accelerometer_tau_s", options.magnetic_survey.gravity.accelerometer_tau_s,
+              kAboveZero, 60.0, "Of levelling, as in [pdr.gravity].");
 }
 
 }  // namespace
@@ -187,6 +211,7 @@ void visit_survey(Options& options, const Visit& visit) {
 void for_each_option(Options& options, const Visit& visit) {
   visit_radio(options, visit);
   visit_pdr(options, visit);
+  detail::visit_gait_options(options, visit);
   visit_fused(options, visit);
   detail::visit_paper_options(options, visit);
   visit_survey(options, visit);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -15,6 +16,21 @@ Choice choice_of(Enum& target, const std::array<std::string_view, count>& names)
   return {names, [&target] { return static_cast<std::size_t>(target); },
           [&target](std::size_t index) { target = static_cast<Enum>(index); }};
 }
+
+/// A switch, as the words "off" and "on".
+Choice switch_of(bool& target) {
+  static constexpr std::array<std::string_view, 2> kWords = {"off", "on"};
+  return {kWords, [&target] { return target ? std::size_t{1} : std::size_t{0}; },
+          [&target](std::size_t index) { target = index == 1; }};
+}
+
+Choice compared_choice(radio::Compared& compared) {
+  static constexpr std::array<std::string_view, 3> kNames = {"union", "query", "common_mean"};
+  return choice_of(compared, kNames);
+}
+
+constexpr std::string_view kComparedHelp =
+    "Transmitters that a distance runs over: of either, of the scan, or the mean over both's.";
 
 void visit_references(Options& options, const Visit& visit) {
   static constexpr std::array<std::string_view, 4> kModes = {"off", "half_range", "mad", "literal"};
@@ -33,32 +49,100 @@ void visit_references(Options& options, const Visit& visit) {
               "No smaller MAD is believed, since phones tell whole decibels.");
 }
 
-void visit_neighbours(Options& options, const Visit& visit) {
-  Table("knn", visit)
-      .number("neighbours", options.knn.neighbours, 1, 1000, "Nearest reference points averaged.")
-      .number("base_sigma_m", options.knn.base_sigma_m, kAboveZero, kHuge,
+/// What all ways of nearest neighbours have.
+template <typename Nearest>
+void visit_nearest(const Table& table, Nearest& options, const char* neighbours) {
+  table.number("neighbours", options.neighbours, 1, 1000, neighbours)
+      .choice("compared", compared_choice(options.compared), kComparedHelp)
+      .number("base_sigma_m", options.base_sigma_m, kAboveZero, kHuge,
               "Error of a place per axis where all neighbours agree.")
-      .number("spread_gain", options.knn.spread_gain, 0.0, kHuge,
+      .number("spread_gain", options.spread_gain, 0.0, kHuge,
               "Share of the neighbours' scatter that adds to the error's covariance.");
-  Table("region", visit)
-      .number("neighbours", options.region.neighbours, 1, 1000,
-              "Nearest points of the strongest transmitter's region, averaged.")
-      .number("base_sigma_m", options.region.base_sigma_m, kAboveZero, kHuge, "As in [knn].")
-      .number("spread_gain", options.region.spread_gain, 0.0, kHuge, "As in [knn].");
-  Table("window", visit)
+}
+
+void visit_windows(radio::WindowKnn::Options& window, const Table& table) {
+  constexpr std::size_t kShown = 4;
+  static constexpr std::array<std::array<std::string_view, 3>, kShown> kNames = {
+      {{"from_1_dbm", "below_1_db", "above_1_db"},
+       {"from_2_dbm", "below_2_db", "above_2_db"},
+       {"from_3_dbm", "below_3_db", "above_3_db"},
+       {"from_4_dbm", "below_4_db", "above_4_db"}}};
+  for (std::size_t i = 0; i < std::min(kShown, window.windows.size()); ++i) {
+    radio::WindowKnn::Window& row = window.windows[i];
+    table
+        .number(kNames[i][0], row.from_dbm, -127.5, 0.0,
+                "Levels from here up have this window; rows by falling level.")
+        .number(kNames[i][1], row.below_db, kAboveZero, 100.0,
+                "How much weaker a point may be and still be accepted.")
+        .number(kNames[i][2], row.above_db, kAboveZero, 100.0, "And how much stronger.");
+  }
+}
+
+void visit_neighbours(Options& options, const Visit& visit) {
+  static constexpr std::array<std::string_view, 2> kKeep = {"most_hits", "all_hits"};
+  const Table knn("knn", visit);
+  visit_nearest(knn, options.knn, "Nearest reference points averaged.");
+  knn.choice("weighted", switch_of(options.knn.weighted), "By inverse distance; else all alike.");
+  visit_nearest(Table("region", visit), options.region,
+                "Nearest points of the strongest transmitter's region, averaged.");
+  const Table window("window", visit);
+  visit_nearest(window, options.window, "Nearest of the kept points, averaged.");
+  window
       .number("strongest", options.window.strongest, 1, 1000,
               "Transmitters of the scan that accept points, the strongest.")
+      .choice("keep", choice_of(options.window.keep, kKeep),
+              "Points with the most acceptances, or those that all accept.")
       .number("slack_hits", options.window.slack_hits, 0, 1000,
-              "Points are kept with this many fewer acceptances than the best.")
-      .number("neighbours", options.window.neighbours, 1, 1000, "Nearest of the kept, averaged.")
-      .number("base_sigma_m", options.window.base_sigma_m, kAboveZero, kHuge, "As in [knn].")
-      .number("spread_gain", options.window.spread_gain, 0.0, kHuge, "As in [knn].");
-  Table("circle", visit)
+              "Points are kept with this many fewer acceptances than the best.");
+  visit_windows(options.window, window);
+  const Table circle("circle", visit);
+  visit_nearest(circle, options.circle, "Nearest points of the circle, averaged.");
+  circle
       .number("radius_m", options.circle.radius_m, kAboveZero, 1000.0,
               "Points this near to where the steps led are compared.")
-      .number("neighbours", options.circle.neighbours, 1, 1000, "Nearest of them, averaged.")
-      .number("base_sigma_m", options.circle.base_sigma_m, kAboveZero, kHuge, "As in [knn].")
-      .number("spread_gain", options.circle.spread_gain, 0.0, kHuge, "As in [knn].");
+      .number("reading_sigma_db", options.circle.reading_sigma_db, kAboveZero, 100.0,
+              "How far readings err, for how well the circle fits.")
+      .number("independent_readings", options.circle.independent_readings, kAboveZero, kHuge,
+              "No more readings of a scan count, since they err together.");
+}
+
+void visit_kernel(learn::Kernel::Options& kernel, const Visit& visit) {
+  static constexpr std::array<std::string_view, 2> kCombinations = {"sum", "product"};
+  Table("regression.kernel", visit)
+      .choice("combination", choice_of(kernel.combination, kCombinations),
+              "How the three kernels make one.")
+      .number("spline_weight", kernel.spline_weight, 0.0, kHuge, "Of the spline kernel.")
+      .number("gauss_weight", kernel.gauss_weight, 0.0, kHuge, "Of the Gauss kernel.")
+      .number("laplace_weight", kernel.laplace_weight, 0.0, kHuge, "Of the Laplace kernel.")
+      .number("gauss_rate", kernel.gauss_rate, kAboveZero, kHuge,
+              "Per squared distance of inputs scaled to one.")
+      .number("laplace_rate", kernel.laplace_rate, kAboveZero, kHuge, "The same.")
+      .choice("normalise_spline", switch_of(kernel.normalise_spline),
+              "Needed from some five transmitters on, where the spline drowns the others.");
+}
+
+void visit_regression(Options& options, const Visit& visit) {
+  radio::RegressionPositioner::Options& regression = options.regression;
+  Table("regression", visit)
+      .number("max_transmitters", regression.max_transmitters, 1, 1000,
+              "Per floor, those that vary the most.")
+      .number("max_points", regression.max_points, 5, 2000,
+              "Per floor; training takes the cube of it.")
+      .number("floor_neighbours", regression.floor_neighbours, 1, 1000,
+              "Nearest points that vote for the floor.")
+      .number("scan_sigma_db", regression.scan_sigma_db, 0.0, 100.0,
+              "Noise of a scan's readings; its effect on the place adds to the error.")
+      .number("unknown_sigma_m", regression.unknown_sigma_m, kAboveZero, kHuge,
+              "Error per axis where the regressor knows none.")
+      .number("min_sigma_m", regression.min_sigma_m, kAboveZero, kHuge,
+              "No regressor is believed to be better.")
+      .number("margin_m", regression.margin_m, 0.0, kHuge,
+              "How far outside the surveyed box a place may lie.")
+      .number("support_cost", regression.support.cost, kAboveZero, 1e6,
+              "Support vectors: what a unit of error beyond epsilon costs.")
+      .number("support_epsilon", regression.support.epsilon, 0.0, kHuge,
+              "Support vectors: errors below cost nothing.");
+  visit_kernel(regression.relevance.kernel, visit);
 }
 
 void visit_field(Options& options, const Visit& visit) {
@@ -86,6 +170,15 @@ void visit_field(Options& options, const Visit& visit) {
               "No less than this.")
       .number("widest_search_m", sequence.widest_search_m, kAboveZero, kHuge,
               "And no more; cost goes with its square.")
+      .number("largest_turn_rad", sequence.largest_turn_rad, 0.0, core::kPi,
+              "The path is tried turned by up to this; 0 takes it as it is.")
+      .number("turn_step_rad", sequence.turn_step_rad, kAboveZero, core::kPi,
+              "Between the turns that are tried.")
+      .number("correlation_m", sequence.correlation_m, kAboveZero, kHuge,
+              "Differences closer together on the path are one.")
+      .number("map_sigma_m", sequence.map_sigma_m, 0.0, kHuge, "Of the map's own places.")
+      .number("widest_sigma_m", sequence.widest_sigma_m, kAboveZero, kHuge,
+              "A direction less certain than this is not known at all.")
       .number("bias_sigma_ut", sequence.bias_sigma_ut, 0.0, kHuge,
               "The phone's own constant part of the field; 0 trusts the phone.")
       .number("field_sigma_ut", sequence.field_sigma_ut, kAboveZero, kHuge,
@@ -119,7 +212,13 @@ void visit_filter(std::string_view name, fusion::StepPositionFilter::Options& fi
               "This many far-off places among the newest begin the filter anew; 0 never.")
       .number("lost_window", filter.lost_window, 1, 100, "The newest places that are counted.")
       .number("lost_gate", filter.lost_gate, kAboveZero, kHuge,
-              "Chi-square beyond which a place is far off.");
+              "Chi-square beyond which a place is far off.")
+      .number("lost_heading_sigma_rad", filter.lost_heading_sigma_rad, kAboveZero, kHuge,
+              "Doubt of the heading after that.")
+      .number("spread_alpha", filter.spread.alpha, kAboveZero, 1.0,
+              "How far the sigma points lie from the mean.")
+      .number("spread_beta", filter.spread.beta, 0.0, kHuge, "2 suits a Gaussian.")
+      .number("spread_kappa", filter.spread.kappa, -5.0, kHuge, "The second spread parameter.");
 }
 
 void visit_decision(Options& options, const Visit& visit) {
@@ -161,7 +260,22 @@ void visit_interval(Options& options, const Visit& visit) {
               "Share of the magnetic place between the two.")
       .number("magnetic_share_late_ratio", interval.weighting.magnetic_share_late_ratio, 0.0, 1.0,
               "Its share afterwards.");
+  Table("interval.velocity_filter", visit)
+      .number("acceleration_variance_m2ps4", interval.velocity_filter.acceleration_variance_m2ps4,
+              kAboveZero, kHuge, "How fast the walker changes speed, per axis.")
+      .number("start_speed_sigma_mps", interval.velocity_filter.start_speed_sigma_mps, kAboveZero,
+              kHuge, "Per axis, before anything is measured.");
   Table("interval.blend", visit)
+      .number("speed_last_ratio", interval.blend.speed.last, 0.0, 1.0,
+              "Share of the last speed; the three sum to one.")
+      .number("speed_fused_ratio", interval.blend.speed.fused, 0.0, 1.0, "Of the fused speed.")
+      .number("speed_sensed_ratio", interval.blend.speed.sensed, 0.0, 1.0, "Of the sensed speed.")
+      .number("heading_last_ratio", interval.blend.heading.last, 0.0, 1.0,
+              "Share of the last heading; the three sum to one.")
+      .number("heading_fused_ratio", interval.blend.heading.fused, 0.0, 1.0,
+              "Of the fused heading.")
+      .number("heading_sensed_ratio", interval.blend.heading.sensed, 0.0, 1.0,
+              "Of the sensed heading.")
       .number("turn_rad", interval.blend.turn_rad, kAboveZero, core::kPi,
               "Sensed heading this far from the last one is a turn.")
       .number("fastest_mps", interval.blend.fastest_mps, kAboveZero, kHuge,
@@ -186,6 +300,8 @@ void visit_feedback(Options& options, const Visit& visit) {
       .number("guard_failures", feedback.guard_failures, 1, 100,
               "This many disagreements among the newest begin anew.")
       .number("guard_window", feedback.guard_window, 1, 100, "The newest places that are counted.")
+      .choice("use_whole_map", switch_of(feedback.use_whole_map),
+              "Whole-map places are measurements too, for reading = \"filtered\".")
       .number("circle_sigma_scale", feedback.circle_sigma_scale, kAboveZero, kHuge,
               "Multiplies the error that a place near the steps states.")
       .number("circle_floor_sigma_m", feedback.circle_floor_sigma_m, 0.0, kHuge,
@@ -207,6 +323,7 @@ void visit_feedback(Options& options, const Visit& visit) {
 void visit_paper_options(Options& options, const Visit& visit) {
   visit_references(options, visit);
   visit_neighbours(options, visit);
+  visit_regression(options, visit);
   visit_field(options, visit);
   visit_decision(options, visit);
   visit_interval(options, visit);

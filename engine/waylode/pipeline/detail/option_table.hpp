@@ -35,7 +35,9 @@ class Table {
   const Visit* visit_;
 };
 
-/// The tables of the papers' parts.
+/// The tables of the parts of dead reckoning that methods choose from.
+void visit_gait_options(Options& options, const Visit& visit);
+/// The tables of the papers' ways with radio, field and fusion.
 void visit_paper_options(Options& options, const Visit& visit);
 
 }  // namespace waylode::pipeline::detail
