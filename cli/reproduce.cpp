@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "config_file.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
 #include "reproduce_recordings.hpp"
@@ -24,6 +25,7 @@ struct Arguments {
   std::optional<std::string> data;
   std::optional<std::string> report;
   std::optional<std::string> out;
+  std::optional<std::string> config;
 };
 
 /// --data, else $WAYLODE_DATA; neither: simulation alone.
@@ -35,20 +37,22 @@ std::optional<std::string> data_folder(const Arguments& arguments) {
 
 core::Result<std::vector<experiment::Outcome>> run_paper(const Arguments& arguments,
                                                          const std::string& paper,
+                                                         const pipeline::Options& options,
                                                          const core::LogSink& log) {
   core::Result<std::vector<experiment::Outcome>> outcomes;
   {
     ProgressBar bar(paper + ", simulated");
-    outcomes = experiment::run_simulated(paper,
-                                         {static_cast<std::size_t>(arguments.seeds),
-                                          arguments.first_seed.value_or(1), arguments.preset},
-                                         bar.sink());
+    outcomes =
+        experiment::run_simulated(paper,
+                                  {static_cast<std::size_t>(arguments.seeds),
+                                   arguments.first_seed.value_or(1), arguments.preset, options},
+                                  bar.sink());
   }
   if (!outcomes) return outcomes;
   const auto folder = data_folder(arguments);
   // A preset is a simulated room: whoever names one wants no recordings.
   if (!folder || arguments.preset) return outcomes;
-  auto recorded = reproduce_on_recordings(paper, *folder, log);
+  auto recorded = reproduce_on_recordings(paper, *folder, options, log);
   if (!recorded) return recorded;
   std::ranges::move(*recorded, std::back_inserter(*outcomes));
   return outcomes;
@@ -70,12 +74,14 @@ core::Result<void> reproduce(const Arguments& arguments, const std::string& comm
     papers.clear();
     for (const experiment::Paper& paper : experiment::papers()) papers.emplace_back(paper.name);
   }
+  const auto options = load_options(arguments.config);
+  if (!options) return tl::unexpected(options.error());
   std::vector<std::string> notes;
   const core::LogSink log = [&](core::LogLevel /*level*/, std::string_view /*module*/,
                                 std::string_view message) { notes.emplace_back(message); };
   std::vector<experiment::Outcome> outcomes;
   for (const std::string& paper : papers) {
-    auto ran = run_paper(arguments, paper, log);
+    auto ran = run_paper(arguments, paper, *options, log);
     if (!ran) return tl::unexpected(ran.error());
     std::ranges::move(*ran, std::back_inserter(outcomes));
   }
@@ -124,6 +130,7 @@ void add_reproduce(Verb& root) {
   verb.argument("--report", arguments->report,
                 "HTML page to write; reproduce-PAPER.html without it");
   verb.argument("--out", arguments->out, "Write the figures as JSON to this file");
+  verb.argument("--config", arguments->config, kConfigHelp);
   verb.run([arguments, &context = verb.context()] {
     return reproduce(*arguments, context.command_line);
   });

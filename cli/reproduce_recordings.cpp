@@ -175,9 +175,10 @@ core::Result<Outcome> compare_on(const Dataset& dataset, const std::string& pape
 }
 
 core::Result<void> add_fusion(const std::string& paper, const fs::path& data,
-                              const core::LogSink& log, std::vector<Outcome>& outcomes) {
+                              const pipeline::Options& options, const core::LogSink& log,
+                              std::vector<Outcome>& outcomes) {
   const std::string id = paper == "wu2019" ? "W-X4" : paper == "zhou2016" ? "Z-X4" : "R-X4";
-  const DatasetContext context{pipeline::Options(), {}, log};
+  const DatasetContext context{options, {}, log};
   if (!is_there(data / "ilc")) {
     outcomes.push_back(absent(paper, "Fusion on real walks, ILC", data / "ilc"));
   } else {
@@ -203,6 +204,7 @@ core::Result<void> add_fusion(const std::string& paper, const fs::path& data,
 
 core::Result<std::vector<Outcome>> reproduce_on_recordings(const std::string& paper,
                                                            const fs::path& data,
+                                                           const pipeline::Options& options,
                                                            const core::LogSink& log) {
   std::vector<Outcome> outcomes;
   if (paper == "zhao2019") {
@@ -215,7 +217,7 @@ core::Result<std::vector<Outcome>> reproduce_on_recordings(const std::string& pa
     }
   }
   if (paper != "zhong2017") {
-    if (auto added = add_fusion(paper, data, log, outcomes); !added) {
+    if (auto added = add_fusion(paper, data, options, log, outcomes); !added) {
       return tl::unexpected(added.error());
     }
   }

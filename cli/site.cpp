@@ -175,7 +175,8 @@ void add_show(Verb& site) {
 }  // namespace
 
 void add_site(Verb& root) {
-  Verb site = root.verb("site", "Build or show a site: floors, frames and maps; or draw a plan from walks");
+  Verb site =
+      root.verb("site", "Build or show a site: floors, frames and maps; or draw a plan from walks");
   add_build(site);
   add_show(site);
   add_site_from_walks(site);

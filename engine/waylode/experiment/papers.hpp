@@ -13,6 +13,7 @@
 #include "waylode/core/log_sink.hpp"
 #include "waylode/core/result.hpp"
 #include "waylode/experiment/outcome.hpp"
+#include "waylode/pipeline/options.hpp"
 
 namespace waylode::experiment {
 
@@ -27,6 +28,7 @@ struct SimulationRequest {
   std::size_t seeds = 30;             ///< Worlds; figures in per cent take at least 100 walks.
   std::uint64_t first_seed = 1;       ///< Worlds first_seed, first_seed + 1, ...
   std::optional<std::string> preset;  ///< One room alone; none: all that have a bar, and more.
+  pipeline::Options options;          ///< Of the engine.
 };
 
 /// The experiments of a paper in its simulated rooms. Deterministic. kInvalidArgument for a preset

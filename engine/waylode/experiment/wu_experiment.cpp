@@ -41,8 +41,9 @@ core::Result<Outcome> car_park(const std::string& name, WuPreset preset,
                                const SimulationRequest& request,
                                const core::ProgressSink& progress) {
   const std::size_t walks = walks_for_percentages(request);
-  const auto trials = run_trials([&](std::uint64_t seed) { return wu_room(preset, seed); },
-                                 request.first_seed, walks, 1.0, contenders(), {}, progress);
+  const auto trials =
+      run_trials([&](std::uint64_t seed) { return wu_room(preset, seed); }, request.first_seed,
+                 walks, 1.0, contenders(), options_for_rooms(request), progress);
   if (!trials) return tl::unexpected(trials.error());
   Outcome outcome;
   outcome.paper = "wu2019";
@@ -79,9 +80,9 @@ core::Result<Outcome> car_park(const std::string& name, WuPreset preset,
 core::Result<Outcome> teaching_building(const SimulationRequest& request,
                                         const core::ProgressSink& progress) {
   const std::size_t walks = walks_for_percentages(request);
-  const auto trials =
-      run_trials([](std::uint64_t seed) { return zhou_corridor(ZhouPreset::kA, seed); },
-                 request.first_seed, walks, 1.0, contenders(), {}, progress);
+  const auto trials = run_trials(
+      [](std::uint64_t seed) { return zhou_corridor(ZhouPreset::kA, seed); }, request.first_seed,
+      walks, 1.0, contenders(), options_for_rooms(request), progress);
   if (!trials) return tl::unexpected(trials.error());
   Outcome outcome;
   outcome.paper = "wu2019";

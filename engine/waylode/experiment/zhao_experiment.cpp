@@ -60,8 +60,9 @@ core::Result<Outcome> square(const std::string& name, ZhaoPreset preset,
                              const SimulationRequest& request, const core::ProgressSink& progress) {
   const std::size_t walks = walks_for_percentages(request);
   constexpr double kStep_s = 0.55;
-  const auto trials = run_trials([&](std::uint64_t seed) { return zhao_square(preset, seed); },
-                                 request.first_seed, walks, kStep_s, contenders(), {}, progress);
+  const auto trials =
+      run_trials([&](std::uint64_t seed) { return zhao_square(preset, seed); }, request.first_seed,
+                 walks, kStep_s, contenders(), options_for_rooms(request), progress);
   if (!trials) return tl::unexpected(trials.error());
   Outcome outcome;
   outcome.paper = "zhao2019";

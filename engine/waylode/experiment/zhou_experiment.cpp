@@ -45,7 +45,8 @@ core::Result<Outcome> corridor(const std::string& name, ZhouPreset preset,
   const bool judged = preset == ZhouPreset::kA;
   // The hard set asks what the field does once the start is known.
   const auto trials = run_trials([&](std::uint64_t seed) { return zhou_corridor(preset, seed); },
-                                 request.first_seed, walks, 0.5, contenders(!judged), {}, progress);
+                                 request.first_seed, walks, 0.5, contenders(!judged),
+                                 options_for_rooms(request), progress);
   if (!trials) return tl::unexpected(trials.error());
   Outcome outcome;
   outcome.paper = "zhou2016";
