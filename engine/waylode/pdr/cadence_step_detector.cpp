@@ -16,11 +16,21 @@ constexpr double kCell_s = core::to_seconds(kCell);
 
 /// Two peaks closer than this share of the rhythm's interval are one step.
 constexpr double kApartRatio = 0.65;
-/// Two peaks further apart than this many intervals hide a step of the other foot.
+/// Two peaks further apart than this many intervals hide a step of the other foot,
 constexpr double kHiddenRatio = 1.5;
+/// if the signal is at least so like itself after one step. A slow walker's whole step, taken for a
+/// stride, tends to -1; a swinging arm's or a pocket's stride hardly ever falls so low.
+constexpr double kOtherFootRatio = -0.5;
 /// A peak is the highest as far on both sides; so much later it is known.
 constexpr double kReachRatio = 0.3;
+/// By then the signal must have fallen by so much of the prominence, else it merely came back to
+/// rest after the last valley.
+constexpr double kFallRatio = 0.1;
 constexpr double kIdleReach_s = 0.15;  ///< The same before a rhythm is known.
+/// Clear peaks begin a walk if the weakest is so much of the strongest,
+constexpr double kAlikeRatio = 0.5;
+/// and the longest interval no more than so many of the shortest.
+constexpr double kEvenRatio = 1.4;
 constexpr double kIntervalGain = 0.3;
 constexpr double kProminenceGain = 0.2;
 
@@ -49,7 +59,8 @@ double vertex(double before, double at, double after) {
 
 core::Result<void> CadenceStepDetector::Options::validate() const {
   const bool positive = low_pass_hz > 0.0 && high_pass_hz > 0.0 && shortest_interval_s >= 0.1 &&
-                        min_prominence_mps2 > 0.0 && first_steps >= 2;
+                        min_prominence_mps2 > 0.0 && clear_prominence_mps2 >= min_prominence_mps2 &&
+                        first_steps >= 2;
   const bool ordered = longest_interval_s > shortest_interval_s && longest_interval_s <= 2.0 &&
                        pause_s > longest_interval_s && pause_s <= 10.0 &&
                        rhythm_window_s >= 2.0 * longest_interval_s + 10.0 * kCell_s &&
@@ -146,6 +157,9 @@ void CadenceStepDetector::look_for_peak() {
   for (; next_candidate_ + reach() < cell_count(); ++next_candidate_) {
     if (!is_highest(next_candidate_, reach())) continue;
     const Peak peak = peak_at(next_candidate_);
+    const double fall_mps2 =
+        cell(next_candidate_).norm_mps2 - cell(next_candidate_ + reach()).norm_mps2;
+    if (fall_mps2 < kFallRatio * peak.prominence_mps2) continue;
     const double least_mps2 =
         std::max(options_.min_prominence_mps2,
                  walking_ ? options_.relative_prominence_ratio * prominence_mps2_ : 0.0);
@@ -196,28 +210,56 @@ std::optional<Rhythm> CadenceStepDetector::rhythm() const {
 
 void CadenceStepDetector::judge(const Peak& peak) {
   const std::optional<Rhythm> found = rhythm();
-  if (!found) return;
-  const double correlation = found->stride_correlation_ratio;
   const double since_s =
       last_step_ ? core::to_seconds(peak.time - *last_step_) : 2.0 * options_.pause_s;
-  walking_ =
-      walking_ && since_s <= options_.pause_s && correlation >= options_.stay_correlation_ratio;
+  const bool in_rhythm =
+      !found || found->stride_correlation_ratio >= options_.stay_correlation_ratio;
+  walking_ = walking_ && since_s <= options_.pause_s && in_rhythm;
   if (!walking_) {
-    if (correlation >= options_.start_correlation_ratio) begin_walk(*found);
+    const bool certain =
+        found && found->stride_correlation_ratio >= options_.start_correlation_ratio;
+    const std::optional<Rhythm> start = certain ? found : rhythm_of_clear_peaks();
+    if (start) begin_walk(*start);
     return;
   }
-  interval_s_ += kIntervalGain * (found->step_interval_s - interval_s_);
+  if (found) interval_s_ += kIntervalGain * (found->step_interval_s - interval_s_);
   if (since_s < kApartRatio * interval_s_) return;
   prominence_mps2_ += kProminenceGain * (peak.prominence_mps2 - prominence_mps2_);
-  if (hides_a_step(since_s, *found)) tell(*last_step_ + (peak.time - *last_step_) / 2);
+  if (found && hides_a_step(since_s, *found)) {
+    tell(*last_step_ + (peak.time - *last_step_) / 2);
+  }
   tell(peak.time);
+}
+
+/// Of the newest peaks, if they are clear, alike and even; without a sign of hidden steps.
+std::optional<Rhythm> CadenceStepDetector::rhythm_of_clear_peaks() const {
+  if (peaks_.size() < options_.first_steps) return std::nullopt;
+  const auto first = peaks_.end() - static_cast<std::ptrdiff_t>(options_.first_steps);
+  const auto [weakest, strongest] = std::minmax_element(
+      first, peaks_.end(),
+      [](const Peak& a, const Peak& b) { return a.prominence_mps2 < b.prominence_mps2; });
+  double shortest_s = options_.longest_interval_s;
+  double longest_s = options_.shortest_interval_s;
+  for (auto peak = first + 1; peak != peaks_.end(); ++peak) {
+    const double interval_s = core::to_seconds(peak->time - (peak - 1)->time);
+    shortest_s = std::min(shortest_s, interval_s);
+    longest_s = std::max(longest_s, interval_s);
+  }
+  const bool clear = weakest->prominence_mps2 >= options_.clear_prominence_mps2 &&
+                     weakest->prominence_mps2 >= kAlikeRatio * strongest->prominence_mps2;
+  const bool even = shortest_s >= options_.shortest_interval_s &&
+                    longest_s <= options_.longest_interval_s &&
+                    longest_s <= kEvenRatio * shortest_s;
+  if (!clear || !even) return std::nullopt;
+  const double span_s = core::to_seconds(peaks_.back().time - first->time);
+  return Rhythm{span_s / static_cast<double>(options_.first_steps - 1), -1.0, 0.0};
 }
 
 /// Whether the other foot stepped between two peaks without a peak of its own. It must show in the
 /// signal's likeness to itself after one step, else a slow walker would be counted double.
 bool CadenceStepDetector::hides_a_step(double span_s, const Rhythm& found) const {
   return span_s >= kHiddenRatio * interval_s_ && span_s <= options_.pause_s &&
-         found.step_correlation_ratio >= 0.0;
+         found.step_correlation_ratio >= kOtherFootRatio;
 }
 
 /// Goes back from the newest peak along those that fit the rhythm, and tells them if they suffice.

@@ -16,10 +16,11 @@ namespace waylode::pdr {
 
 /// Finds footfalls as the peaks of the acceleration's length that come in a walker's rhythm, so it
 /// needs no attitude and serves in the hand, in a pocket, in a bag and on a swinging arm. Nothing
-/// is told before the rhythm is confirmed; the steps that confirmed it are then told at once, one
-/// per following sample, each at most `longest_delay_s` old. Later steps are told about a third of
-/// a step after their peak. Samples that are not finite or beyond any phone's range are passed
-/// over; a gap longer than `pause_s` starts anew. Work per sample is bounded.
+/// is told before a walk is certain, by its rhythm or by a few clear and even peaks; the steps so
+/// far are then told at once, one per following sample, each at most `longest_delay_s` old and the
+/// time of confirming. Later steps are told about a third of a step after their peak. Samples that
+/// are not finite, beyond any phone's range or out of order are passed over; a gap longer than
+/// `pause_s` starts anew. Work per sample is bounded.
 class CadenceStepDetector : public StepSource {
  public:
   struct Options {
@@ -30,14 +31,17 @@ class CadenceStepDetector : public StepSource {
     /// by strides and those last 0.9 s and more. Raise it for the slow only when no pockets occur.
     double longest_interval_s = 0.85;
     double rhythm_window_s = 3.0;  ///< What the rhythm is told from; two of the longest strides.
-    double start_correlation_ratio = 0.6;  ///< Of strides, to begin a walk; handling stays below.
+    double start_correlation_ratio = 0.7;  ///< Of strides, to begin a walk; handling stays below.
     double stay_correlation_ratio = 0.4;   ///< To go on walking; below the former.
     std::size_t first_steps = 3;       ///< Regular peaks that make a walk; fewer are never told.
     double longest_delay_s = 2.5;      ///< Of the steps that are counted back when a walk begins.
     double min_prominence_mps2 = 0.5;  ///< Of a peak above the valley before it, smoothed.
-    /// Of the recent peaks' prominence, what a new one must reach: between an ebbing walk's weaker
-    /// foot and the stir after the last step.
-    double relative_prominence_ratio = 0.2;
+    /// Even peaks as prominent as this begin a walk while its rhythm is still mixed with what was
+    /// before: short walks from stop to stop. Handling the phone gives weaker or uneven ones.
+    double clear_prominence_mps2 = 2.0;
+    /// Of the recent peaks' prominence, what a new one must reach; weaker ones are the stir after
+    /// the last step, or are inferred from the rhythm.
+    double relative_prominence_ratio = 0.4;
     double pause_s = 1.5;  ///< A longer interval starts a new walk; caps Step::interval_s.
 
     core::Result<void> validate() const;
@@ -79,6 +83,7 @@ class CadenceStepDetector : public StepSource {
   bool is_highest(std::size_t index, std::size_t reach) const;
   Peak peak_at(std::size_t index) const;
   void judge(const Peak& peak);
+  std::optional<Rhythm> rhythm_of_clear_peaks() const;
   void begin_walk(const Rhythm& found);
   bool hides_a_step(double span_s, const Rhythm& found) const;
   void tell(core::DeviceTime time);

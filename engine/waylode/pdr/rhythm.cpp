@@ -42,14 +42,31 @@ double score(const std::vector<double>& correlation, std::size_t stride) {
   return 0.5 * (at_step(correlation, stride) + correlation[stride]);
 }
 
+bool is_peak(const std::vector<double>& correlation, std::size_t lag) {
+  return correlation[lag] >= correlation[lag - 1] && correlation[lag] >= correlation[lag + 1];
+}
+
+/// The lag of the best score from `first` to `last`; where the correlation has peaks there, of
+/// these, since what is on a peak's flank belongs to a period out of range.
+std::size_t best_stride(const std::vector<double>& correlation, std::size_t first,
+                        std::size_t last) {
+  std::size_t best = first;
+  for (std::size_t lag = first + 1; lag <= last; ++lag) {
+    const bool gains = is_peak(correlation, lag) && !is_peak(correlation, best);
+    const bool loses = !is_peak(correlation, lag) && is_peak(correlation, best);
+    if (gains || (!loses && score(correlation, lag) > score(correlation, best))) best = lag;
+  }
+  return best;
+}
+
 /// The lag of the maximum near `lag` of a parabola through it and its neighbours.
 double refine(const std::vector<double>& correlation, std::size_t lag) {
   const double before = correlation[lag - 1];
   const double at = correlation[lag];
   const double after = correlation[lag + 1];
   const double curvature = before - 2.0 * at + after;
-  const bool is_peak = at >= before && at >= after && curvature < 0.0;
-  return static_cast<double>(lag) + (is_peak ? 0.5 * (before - after) / curvature : 0.0);
+  const bool refinable = is_peak(correlation, lag) && curvature < 0.0;
+  return static_cast<double>(lag) + (refinable ? 0.5 * (before - after) / curvature : 0.0);
 }
 
 }  // namespace
@@ -63,9 +80,11 @@ std::optional<Rhythm> find_rhythm(std::span<const double> signal, double spacing
 
   const std::vector<double> correlation = autocorrelation(centred(signal), longest + 1);
   if (correlation[0] <= 0.0) return {};
-  std::size_t stride = shortest;
-  for (std::size_t lag = shortest; lag <= longest; ++lag) {
-    if (score(correlation, lag) > score(correlation, stride)) stride = lag;
+  std::size_t stride = best_stride(correlation, shortest, longest);
+  // A runner's stride is as long as a slow walker's step, but the runner's feet are alike.
+  constexpr double kAlikeRatio = 0.5;
+  if (stride / 2 > shortest && at_step(correlation, stride / 2) >= kAlikeRatio) {
+    stride = best_stride(correlation, stride / 2 - 1, stride / 2 + 1);
   }
   return Rhythm{0.5 * spacing_s * refine(correlation, stride), at_step(correlation, stride),
                 correlation[stride]};

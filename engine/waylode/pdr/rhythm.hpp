@@ -24,9 +24,9 @@ struct StepIntervalRange {
 };
 
 /// The rhythm of a signal sampled every `spacing_s`: the interval at which the mean of its
-/// autocorrelation after one step and after two is largest. The half of the interval fails after
-/// one of its steps, the double is out of range for most walks. Nothing when the signal is constant
-/// or shorter than two of the longest intervals and 10 samples.
+/// autocorrelation after one step and after two is largest, or half of that interval if the signal
+/// is alike after it too. Nothing when the signal is constant or shorter than two of the longest
+/// intervals and 10 samples.
 std::optional<Rhythm> find_rhythm(std::span<const double> signal, double spacing_s,
                                   const StepIntervalRange& range);
 
