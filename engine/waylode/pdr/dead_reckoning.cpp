@@ -52,6 +52,23 @@ StepValidity::Options validity_options(const DeadReckoning::Options& options) {
   return validity;
 }
 
+/// A filter that has taken in what is no number never gets rid of it.
+bool is_finite(const sample::Sample& sample) {
+  if (const auto* acceleration = std::get_if<sample::AccelerometerSample>(&sample)) {
+    return acceleration->specific_force_mps2.allFinite();
+  }
+  if (const auto* rate = std::get_if<sample::GyroscopeSample>(&sample)) {
+    return rate->angular_rate_radps.allFinite();
+  }
+  if (const auto* field = std::get_if<sample::MagnetometerSample>(&sample)) {
+    return field->field_ut.allFinite();
+  }
+  if (const auto* rotation = std::get_if<sample::RotationSample>(&sample)) {
+    return rotation->enu_from_device.coeffs().allFinite();
+  }
+  return true;
+}
+
 }  // namespace
 
 core::Result<void> DeadReckoning::Options::validate() const {
@@ -84,6 +101,7 @@ std::optional<double> DeadReckoning::heading_rad() const {
 }
 
 std::optional<observation::MotionDelta> DeadReckoning::add(const sample::Sample& sample) {
+  if (!is_finite(sample)) return std::nullopt;
   if (const auto* acceleration = std::get_if<sample::AccelerometerSample>(&sample)) {
     return add_accelerometer(*acceleration);
   }

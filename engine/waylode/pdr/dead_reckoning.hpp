@@ -62,7 +62,8 @@ class DeadReckoning {
 
   explicit DeadReckoning(const Options& options);
 
-  /// Samples in order of time; kinds that do not concern it are passed over. A step is told when it
+  /// Samples in order of time; kinds that do not concern it, and values that are
+  /// not finite, are passed over. A step is told when it
   /// is confirmed, a fraction of a second after its peak. Its heading is the mean since the step
   /// before; of the first after a pause, that of the last moments, not of the standing. A step in
   /// place has no length.

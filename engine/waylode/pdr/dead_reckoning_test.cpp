@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "waylode/core/angle.hpp"
@@ -298,6 +299,27 @@ TEST(DeadReckoning, HeadsByTheRawCompassWhereAsked) {
   reckoning.set_magnetometer_calibration(calibration);
   reckoning.add(sample::MagnetometerSample{time, {-25.0, 6.0, -33.0}, 3});
   EXPECT_NEAR(*reckoning.heading_rad(), -0.1, 1e-12);
+}
+
+TEST(DeadReckoning, PassesOverWhatIsNoNumber) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  DeadReckoning reckoning(options());
+  std::size_t steps = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto time = device_time_from_seconds(0.02 * i);
+    const double up_mps2 = kStandardGravity_mps2 + 3.0 * std::sin(2.0 * kPi * 1.8 * 0.02 * i);
+    reckoning.add(sample::RotationSample{time, Quaternion(kNan, 0.0, 0.0, 1.0)});
+    reckoning.add(sample::RotationSample{time, held(0.0, 0.0)});
+    reckoning.add(sample::GyroscopeSample{time, {kNan, 0.0, 0.0}});
+    reckoning.add(sample::MagnetometerSample{time, {0.0, kNan, 0.0}, 3});
+    EXPECT_FALSE(reckoning.add(sample::AccelerometerSample{time, {0.0, kNan, 9.8}}));
+    const auto delta = reckoning.add(sample::AccelerometerSample{time, {0.0, 0.0, up_mps2}});
+    if (!delta) continue;
+    ++steps;
+    EXPECT_NEAR(delta->heading_rad, 0.0, 1e-6);
+    EXPECT_NEAR(delta->length_m, 0.65, 1e-12);
+  }
+  EXPECT_GE(steps, 17U);
 }
 
 TEST(DeadReckoning, PassesOverOtherSamples) {

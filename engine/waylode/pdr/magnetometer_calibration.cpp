@@ -76,7 +76,7 @@ MagnetometerCalibration calibration_of(const Quadric& quadric, const Extent& ext
   // |root (x - centre)| = 1 on the ellipsoid; of determinant one, it keeps the mean field.
   const Vector3 root = (solver.eigenvalues() / radius2).cwiseSqrt();
   const double mean_radius = 1.0 / std::cbrt(root.prod());
-  const Matrix3d axes = solver.eigenvectors();
+  const Matrix3d& axes = solver.eigenvectors();
   calibration.soft_iron = axes * (mean_radius * root).asDiagonal() * axes.transpose();
   calibration.hard_iron_ut = extent.mean_ut + extent.size_ut * centre;
   calibration.field_ut = extent.size_ut * mean_radius;
