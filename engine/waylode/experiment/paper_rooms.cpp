@@ -243,7 +243,7 @@ core::Result<PaperWalk> zhong_walk(ZhongKind kind, std::uint64_t seed) {
   sim::GaitOptions gait = draw_gait(rng);
   sim::PhoneOptions phone = draw_phone(rng, 4.0, 0.3);
   // More would hide steps from the paper's literal rule, which ripples mislead.
-  phone.accelerometer_noise_mps2 = 0.27;
+  phone.accelerometer_noise_mps2 = 0.26;
 
   // The same seed and walker: the same person and phone.
   RoomPlan straight = plan;

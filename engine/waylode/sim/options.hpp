@@ -29,10 +29,11 @@ struct GaitOptions {
   double bounce_sigma_ratio = 0.0;    ///< Noise of the logarithm of single steps' bounce, 0 to 0.5.
   double end_step_ratio = 0.7;  ///< First and last step of a stroke against the others, 0.3 to 1.
   bool straight_ways = false;   ///< Straight from place to place, whatever stands in between.
-  /// Stops to take a photo, per walk, 0 to 20: 3 to 6 s of stepping in place while the body turns
-  /// 50 to 110 degrees and back. At places drawn from the walker's name, as are the dodges.
+  /// Stops to take a photo, per walk, 0 to 20: the whole steps that fit into 3 to 6 s at 1.5 Hz, in
+  /// place, while the body turns 50 to 110 degrees and back. At places drawn from the walker's
+  /// name, as are the dodges.
   double photo_stops = 0.0;
-  /// Giving way to somebody, per walk, 0 to 20: 1 to 2 s in place, 25 to 60 degrees and back.
+  /// Giving way to somebody, per walk, 0 to 20: the same in 1 to 2 s by 25 to 60 degrees.
   double dodges = 0.0;
 };
 

@@ -86,7 +86,7 @@ void Walk::draw_episodes(const GaitOptions& options, core::Rng& rng) {
     const double turn_deg = is_photo ? rng.uniform(50.0, 110.0) : rng.uniform(25.0, 60.0);
     Episode episode;
     episode.walked_m = rng.uniform(margin_m, whole_m - margin_m);
-    episode.steps = static_cast<int>(std::round(duration_s * kInPlaceCadence_hz));
+    episode.steps = static_cast<int>(std::floor(duration_s * kInPlaceCadence_hz));
     episode.turn_rad = core::radians_from_degrees(rng.below(2) == 0 ? turn_deg : -turn_deg);
     episode.bounce_mps2 = rng.uniform(2.5, 5.5);
     episodes_.push_back(episode);
