@@ -95,8 +95,10 @@ void add_simulate(Verb& root);
 void add_inspect(Verb& root);
 void add_convert(Verb& root);
 void add_site(Verb& root);
+void add_site_from_walks(Verb& site);  ///< Below add_site's verb.
 void add_track(Verb& root);
 void add_evaluate(Verb& root);
+void add_reproduce(Verb& root);
 void add_methods(Verb& root);
 void add_config(Verb& root);
 void add_version(Verb& root);

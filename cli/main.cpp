@@ -29,6 +29,7 @@ void add_verbs(waylode::cli::Verb root) {
   add_site(root);
   add_track(root);
   add_evaluate(root);
+  add_reproduce(root);
   add_methods(root);
   add_config(root);
   add_version(root);

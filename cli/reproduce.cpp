@@ -19,6 +19,7 @@ namespace {
 struct Arguments {
   std::string paper;
   double seeds = 30;
+  std::optional<std::uint64_t> first_seed;
   std::optional<std::string> preset;
   std::optional<std::string> data;
   std::optional<std::string> report;
@@ -38,8 +39,10 @@ core::Result<std::vector<experiment::Outcome>> run_paper(const Arguments& argume
   core::Result<std::vector<experiment::Outcome>> outcomes;
   {
     ProgressBar bar(paper + ", simulated");
-    outcomes = experiment::run_simulated(
-        paper, {static_cast<std::size_t>(arguments.seeds), arguments.preset}, bar.sink());
+    outcomes = experiment::run_simulated(paper,
+                                         {static_cast<std::size_t>(arguments.seeds),
+                                          arguments.first_seed.value_or(1), arguments.preset},
+                                         bar.sink());
   }
   if (!outcomes) return outcomes;
   const auto folder = data_folder(arguments);
@@ -112,6 +115,8 @@ void add_reproduce(Verb& root) {
   verb.argument("--seeds", arguments->seeds,
                 "Worlds to simulate; figures in per cent take at least 100 walks")
       .in_range(1, 10000);
+  verb.argument("--first-seed", arguments->first_seed,
+                "Of the worlds; 1 without it. Tune on others than are reported");
   verb.argument("--preset", arguments->preset, "One simulated room alone. " + presets);
   verb.argument("--data", arguments->data,
                 "Folder with the public recordings (ilc, ipin2023, oxford-steps, uji-mag); "

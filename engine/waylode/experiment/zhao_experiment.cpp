@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "waylode/experiment/corridor_regression.hpp"
+#include "waylode/experiment/kernel_regression.hpp"
 #include "waylode/experiment/paper_experiments.hpp"
 #include "waylode/experiment/room_walks.hpp"
 #include "waylode/radio/reference_map.hpp"
@@ -93,6 +95,22 @@ core::Result<Outcome> square(const std::string& name, ZhaoPreset preset,
 core::Result<std::vector<Outcome>> run_zhao2019(const SimulationRequest& request,
                                                 const core::ProgressSink& progress) {
   std::vector<Outcome> outcomes;
+  if (!request.preset || *request.preset == "kernel") {
+    KernelRegression::Options options;
+    options.first_seed += request.first_seed - 1;
+    options.draws = request.seeds;
+    auto outcome = kernel_regression_outcome(options);
+    if (!outcome) return tl::unexpected(outcome.error());
+    outcomes.push_back(*std::move(outcome));
+  }
+  if (!request.preset || *request.preset == "corridor") {
+    CorridorRegression::Options options;
+    options.first_seed += request.first_seed - 1;
+    options.draws = walks_for_percentages(request);
+    auto outcome = corridor_regression_outcome(options);
+    if (!outcome) return tl::unexpected(outcome.error());
+    outcomes.push_back(*std::move(outcome));
+  }
   const std::array<std::pair<const char*, ZhaoPreset>, 3> presets = {
       {{"normal", ZhaoPreset::kNormal},
        {"harsh", ZhaoPreset::kHarsh},

@@ -32,14 +32,14 @@ Gaussian predicted(const Gaussian& before, core::Duration by, double acceleratio
 }
 
 /// [Zhou2016] eqs. (22) to (24), the covariance in Joseph's form. Returns the chi-square.
-template <int kRows>
-double update(Gaussian& belief, const Eigen::Matrix<double, kRows, 4>& model,
-              const Eigen::Matrix<double, kRows, 1>& measured,
-              const Eigen::Matrix<double, kRows, kRows>& noise) {
-  const Eigen::Matrix<double, kRows, 1> innovation = measured - model * belief.mean;
-  const Eigen::LDLT<Eigen::Matrix<double, kRows, kRows>> innovation_covariance(
+template <int Rows>
+double update(Gaussian& belief, const Eigen::Matrix<double, Rows, 4>& model,
+              const Eigen::Matrix<double, Rows, 1>& measured,
+              const Eigen::Matrix<double, Rows, Rows>& noise) {
+  const Eigen::Matrix<double, Rows, 1> innovation = measured - model * belief.mean;
+  const Eigen::LDLT<Eigen::Matrix<double, Rows, Rows>> innovation_covariance(
       model * belief.covariance * model.transpose() + noise);
-  const Eigen::Matrix<double, 4, kRows> gain =
+  const Eigen::Matrix<double, 4, Rows> gain =
       innovation_covariance.solve(model * belief.covariance).transpose();
   const Covariance keep = Covariance::Identity() - gain * model;
   belief.mean += gain * innovation;

@@ -159,6 +159,7 @@ void FeedbackTracker::begin_anew(const PlanarMeasurement& whole_map) {
 
 std::vector<core::Vector2> FeedbackTracker::centres() const {
   std::vector<core::Vector2> result;
+  result.reserve(tracks_.size());
   for (const Track& track : tracks_) result.push_back(position_of(track.filter));
   return result;
 }
@@ -247,7 +248,7 @@ PlanarEstimate FeedbackTracker::at(core::DeviceTime time) const {
 }
 
 PlanarEstimate FeedbackTracker::answer_of(const Track& track, core::DeviceTime time) {
-  const PlanarEstimate walked = track.filter.at(time);
+  PlanarEstimate walked = track.filter.at(time);
   if (!track.answer) return walked;
   // The steps since the match lead on from it.
   const core::Vector2 beyond_m = walked.position_m - position_of(track.filter);

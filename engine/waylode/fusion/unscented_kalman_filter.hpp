@@ -26,20 +26,20 @@ struct UnscentedUpdate {
 ///
 /// Deviations from the central point are summed, not deviations from the mean: algebraically the
 /// same, but free of the cancellation that a small alpha brings, and never indefinite.
-template <int kStates>
+template <int States>
 class UnscentedKalmanFilter {
  public:
-  using State = Eigen::Matrix<double, kStates, 1>;
-  using Covariance = Eigen::Matrix<double, kStates, kStates>;
-  template <int kRows>
-  using Measurement = Eigen::Matrix<double, kRows, 1>;
-  template <int kRows>
-  using Noise = Eigen::Matrix<double, kRows, kRows>;
+  using State = Eigen::Matrix<double, States, 1>;
+  using Covariance = Eigen::Matrix<double, States, States>;
+  template <int Rows>
+  using Measurement = Eigen::Matrix<double, Rows, 1>;
+  template <int Rows>
+  using Noise = Eigen::Matrix<double, Rows, Rows>;
 
-  /// `spread` is valid for kStates; the mean is finite, the covariance symmetric positive definite.
+  /// `spread` is valid for States; the mean is finite, the covariance symmetric positive definite.
   UnscentedKalmanFilter(const SigmaSpread& spread, const State& mean, const Covariance& covariance)
       : spread_(spread), mean_(mean), covariance_(covariance) {
-    WAYLODE_ASSERT(spread.validate(kStates).has_value() && is_usable(mean, covariance));
+    WAYLODE_ASSERT(spread.validate(States).has_value() && is_usable(mean, covariance));
   }
 
   const State& mean() const { return mean_; }
@@ -50,8 +50,8 @@ class UnscentedKalmanFilter {
   template <typename Transition, typename Residual = std::minus<State>>
   bool predict(const Transition& transition, const Covariance& noise,
                const Residual& residual = {}) {
-    const Transformed<kStates> moved = transform<kStates>(transition, residual);
-    const Covariance covariance = symmetrised<kStates>(moved.covariance + noise);
+    const Transformed<States> moved = transform<States>(transition, residual);
+    const Covariance covariance = symmetrised<States>(moved.covariance + noise);
     if (!is_usable(moved.mean, covariance)) return false;
     mean_ = moved.mean;
     covariance_ = covariance;
@@ -62,15 +62,15 @@ class UnscentedKalmanFilter {
   /// covariance `noise`, positive definite. Beyond `gate`, the chi-square of the innovation that is
   /// still believed, the noise is inflated by their quotient. nullopt, and nothing changes, when
   /// the measurement is not finite or the outcome would not be usable.
-  template <int kRows, typename Model, typename Residual = std::minus<Measurement<kRows>>>
-  std::optional<UnscentedUpdate> update(const Measurement<kRows>& measured, const Model& model,
-                                        const Noise<kRows>& noise,
+  template <int Rows, typename Model, typename Residual = std::minus<Measurement<Rows>>>
+  std::optional<UnscentedUpdate> update(const Measurement<Rows>& measured, const Model& model,
+                                        const Noise<Rows>& noise,
                                         double gate = std::numeric_limits<double>::infinity(),
                                         const Residual& residual = {}) {
     if (!measured.allFinite() || !noise.allFinite()) return std::nullopt;
-    const Transformed<kRows> expected = transform<kRows>(model, residual);
-    const Measurement<kRows> innovation = residual(measured, expected.mean);
-    Noise<kRows> innovation_covariance = symmetrised<kRows>(expected.covariance + noise);
+    const Transformed<Rows> expected = transform<Rows>(model, residual);
+    const Measurement<Rows> innovation = residual(measured, expected.mean);
+    Noise<Rows> innovation_covariance = symmetrised<Rows>(expected.covariance + noise);
     UnscentedUpdate result;
     result.normalized_innovation_squared =
         innovation.dot(innovation_covariance.ldlt().solve(innovation));
@@ -78,13 +78,12 @@ class UnscentedKalmanFilter {
       result.noise_inflation = result.normalized_innovation_squared / gate;
       innovation_covariance += (result.noise_inflation - 1.0) * noise;
     }
-    const Eigen::Matrix<double, kRows, kStates> gain_transposed =
-        innovation_covariance.ldlt().solve(
-            Eigen::Matrix<double, kRows, kStates>(expected.cross_covariance.transpose()));
-    const Eigen::Matrix<double, kStates, kRows> gain = gain_transposed.transpose();
+    const Eigen::Matrix<double, Rows, States> gain_transposed = innovation_covariance.ldlt().solve(
+        Eigen::Matrix<double, Rows, States>(expected.cross_covariance.transpose()));
+    const Eigen::Matrix<double, States, Rows> gain = gain_transposed.transpose();
     const State mean = mean_ + gain * innovation;
     Covariance covariance =
-        symmetrised<kStates>(covariance_ - gain * innovation_covariance * gain.transpose());
+        symmetrised<States>(covariance_ - gain * innovation_covariance * gain.transpose());
     // Rounding can leave a hair below zero where the measurement is far sharper than the state.
     if (covariance.llt().info() != Eigen::Success) {
       covariance.diagonal() += kRounding * covariance_.diagonal();
@@ -99,15 +98,15 @@ class UnscentedKalmanFilter {
   static constexpr double kRounding = 1e-12;
 
   /// A Gaussian through a function.
-  template <int kRows>
+  template <int Rows>
   struct Transformed {
-    Measurement<kRows> mean;
-    Noise<kRows> covariance;
-    Eigen::Matrix<double, kStates, kRows> cross_covariance;
+    Measurement<Rows> mean;
+    Noise<Rows> covariance;
+    Eigen::Matrix<double, States, Rows> cross_covariance;
   };
 
-  template <int kRows>
-  static Noise<kRows> symmetrised(const Noise<kRows>& matrix) {
+  template <int Rows>
+  static Noise<Rows> symmetrised(const Noise<Rows>& matrix) {
     return 0.5 * (matrix + matrix.transpose());
   }
 
@@ -115,20 +114,20 @@ class UnscentedKalmanFilter {
     return mean.allFinite() && covariance.allFinite() && covariance.llt().info() == Eigen::Success;
   }
 
-  template <int kRows, typename Function, typename Residual>
-  Transformed<kRows> transform(const Function& function, const Residual& residual) const {
-    const SigmaWeights weights = sigma_weights(spread_, kStates);
+  template <int Rows, typename Function, typename Residual>
+  Transformed<Rows> transform(const Function& function, const Residual& residual) const {
+    const SigmaWeights weights = sigma_weights(spread_, States);
     const Covariance root =
         std::sqrt(0.5 / weights.other) * Covariance(covariance_.llt().matrixL());
-    const Measurement<kRows> central = function(mean_);
-    Transformed<kRows> result;
+    const Measurement<Rows> central = function(mean_);
+    Transformed<Rows> result;
     result.mean.setZero();
     result.covariance.setZero();
     result.cross_covariance.setZero();
-    for (int i = 0; i < kStates; ++i) {
+    for (int i = 0; i < States; ++i) {
       const State offset = root.col(i);
-      const Measurement<kRows> above = residual(function(State(mean_ + offset)), central);
-      const Measurement<kRows> below = residual(function(State(mean_ - offset)), central);
+      const Measurement<Rows> above = residual(function(State(mean_ + offset)), central);
+      const Measurement<Rows> below = residual(function(State(mean_ - offset)), central);
       result.mean += weights.other * (above + below);
       result.covariance += weights.other * (above * above.transpose() + below * below.transpose());
       result.cross_covariance += weights.other * offset * (above - below).transpose();

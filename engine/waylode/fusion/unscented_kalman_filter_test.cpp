@@ -26,22 +26,22 @@ using Filter3 = UnscentedKalmanFilter<3>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <int kRows, int kColumns>
-Eigen::Matrix<double, kRows, kColumns> random_matrix(core::Rng& rng, double size) {
-  Eigen::Matrix<double, kRows, kColumns> result;
+template <int Rows, int Columns>
+Eigen::Matrix<double, Rows, Columns> random_matrix(core::Rng& rng, double size) {
+  Eigen::Matrix<double, Rows, Columns> result;
   for (int i = 0; i < result.size(); ++i) result(i) = rng.normal(0.0, size);
   return result;
 }
 
-template <int kRows>
-Eigen::Matrix<double, kRows, kRows> random_covariance(core::Rng& rng, double size) {
-  const auto root = random_matrix<kRows, kRows>(rng, size);
+template <int Rows>
+Eigen::Matrix<double, Rows, Rows> random_covariance(core::Rng& rng, double size) {
+  const auto root = random_matrix<Rows, Rows>(rng, size);
   return root * root.transpose() +
-         0.1 * size * size * Eigen::Matrix<double, kRows, kRows>::Identity();
+         0.1 * size * size * Eigen::Matrix<double, Rows, Rows>::Identity();
 }
 
-template <int kRows>
-bool is_positive_definite(const Eigen::Matrix<double, kRows, kRows>& matrix) {
+template <int Rows>
+bool is_positive_definite(const Eigen::Matrix<double, Rows, Rows>& matrix) {
   return (matrix - matrix.transpose()).norm() == 0.0 && matrix.llt().info() == Eigen::Success;
 }
 

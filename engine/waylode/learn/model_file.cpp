@@ -74,14 +74,13 @@ struct Unusable : std::runtime_error {
 };
 
 /// Just these members.
-const json& members(const json& value, std::initializer_list<const char*> names) {
+void require_members(const json& value, std::initializer_list<const char*> names) {
   if (!value.is_object() || value.size() != names.size()) {
     throw Unusable("an object lacks a member or has one too many");
   }
   for (const char* name : names) {
     if (!value.contains(name)) throw Unusable(std::string("there is no \"") + name + '"');
   }
-  return value;
 }
 
 double number(const json& value) {
@@ -95,21 +94,23 @@ bool flag(const json& value) {
   return value.get<bool>();
 }
 
-const json& list(const json& value) {
+void require_list(const json& value) {
   if (!value.is_array()) throw Unusable("a value is no list");
-  return value;
 }
 
 VectorXd vector(const json& value) {
-  VectorXd read(static_cast<Index>(list(value).size()));
+  require_list(value);
+  VectorXd read(static_cast<Index>(value.size()));
   for (std::size_t i = 0; i < value.size(); ++i) read(static_cast<Index>(i)) = number(value[i]);
   return read;
 }
 
 MatrixXd matrix(const json& value, Index columns) {
+  require_list(value);
   // Every row is of the length told before memory is taken for them.
-  for (const json& row : list(value)) {
-    if (static_cast<Index>(list(row).size()) != columns) throw Unusable("a row has not its length");
+  for (const json& row : value) {
+    require_list(row);
+    if (static_cast<Index>(row.size()) != columns) throw Unusable("a row has not its length");
   }
   MatrixXd read(static_cast<Index>(value.size()), columns);
   for (std::size_t i = 0; i < value.size(); ++i) {
@@ -125,7 +126,7 @@ T sound(core::Result<T>&& result) {
 }
 
 InputScaler scaler(const json& value) {
-  members(value, {"low", "span", "clip_low", "clip_high"});
+  require_members(value, {"low", "span", "clip_low", "clip_high"});
   return sound(InputScaler::from_range(
       number(value["low"]), number(value["span"]),
       {.clip_low = number(value["clip_low"]), .clip_high = number(value["clip_high"])}));
@@ -138,8 +139,8 @@ Kernel::Combination combination(const json& value) {
 }
 
 Kernel::Options kernel(const json& value) {
-  members(value, {"combination", "spline_weight", "gauss_weight", "laplace_weight", "gauss_rate",
-                  "laplace_rate", "normalise_spline"});
+  require_members(value, {"combination", "spline_weight", "gauss_weight", "laplace_weight",
+                          "gauss_rate", "laplace_rate", "normalise_spline"});
   return {.combination = combination(value["combination"]),
           .spline_weight = number(value["spline_weight"]),
           .gauss_weight = number(value["gauss_weight"]),
@@ -150,8 +151,8 @@ Kernel::Options kernel(const json& value) {
 }
 
 Regression::Regressor relevance_vectors(const json& value, Index dimensions) {
-  members(value, {"kind", "kernel", "offset", "has_bias", "vectors", "weights", "covariance",
-                  "noise_variance"});
+  require_members(value, {"kind", "kernel", "offset", "has_bias", "vectors", "weights",
+                          "covariance", "noise_variance"});
   RelevanceVectorRegression::Model model;
   model.kernel = kernel(value["kernel"]);
   model.offset = number(value["offset"]);
@@ -164,7 +165,7 @@ Regression::Regressor relevance_vectors(const json& value, Index dimensions) {
 }
 
 Regression::Regressor support_vectors(const json& value, Index dimensions) {
-  members(value, {"kind", "gauss_rate", "bias", "vectors", "weights"});
+  require_members(value, {"kind", "gauss_rate", "bias", "vectors", "weights"});
   SupportVectorRegression::Model model;
   model.gauss_rate = number(value["gauss_rate"]);
   model.bias = number(value["bias"]);
@@ -187,10 +188,11 @@ Regression regression(const json& value) {
     throw Unusable("this is no saved regression");
   }
   if (value.value("version", json()) != kVersion) throw Unusable("its version is unknown");
-  members(value, {"format", "version", "dimensions", "scaler", "outputs"});
+  require_members(value, {"format", "version", "dimensions", "scaler", "outputs"});
   const Index dimensions = dimensions_of(value["dimensions"]);
   std::vector<Regression::Regressor> outputs;
-  for (const json& output : list(value["outputs"])) {
+  require_list(value["outputs"]);
+  for (const json& output : value["outputs"]) {
     const json kind = output.is_object() ? output.value("kind", json()) : json();
     if (kind != kRelevance && kind != kSupport) throw Unusable("a kind of regressor is unknown");
     outputs.push_back(kind == kRelevance ? relevance_vectors(output, dimensions)

@@ -12,7 +12,10 @@
 
 namespace waylode::learn {
 
-/// Values at several inputs, and how sure: the regressor's sigma*, noise included.
+/// Values at several inputs, and how sure: the regressor's sigma*, noise included. It takes the
+/// vectors and precisions kept for certain, so it is too small where samples are few: about right
+/// for 200 of a curve, but of 48 places with 8 transmitters half of the errors exceed it, not a
+/// third.
 struct Prediction {
   Eigen::VectorXd mean;
   Eigen::VectorXd sigma;

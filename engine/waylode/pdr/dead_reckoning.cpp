@@ -166,13 +166,13 @@ double DeadReckoning::mean_heading_rad(const Step& step, core::DeviceTime told) 
   const double span_s = is_after_pause(step)
                             ? kOrdinaryStep_s
                             : (is_late ? step.interval_s : 2.0 * longest_interval_s_);
-  core::DeviceTime begin = end - core::from_seconds(span_s);
+  const core::DeviceTime begin = end - core::from_seconds(span_s);
   core::Vector2 sum = core::Vector2::Zero();
-  for (const Direction& direction : directions_) {
-    const bool is_told = !is_late && last_told_ && direction.time <= *last_told_;
-    if (direction.time >= begin && direction.time <= end && !is_told) sum += direction.unit;
+  for (Direction& direction : directions_) {
+    const bool is_its_own = direction.time >= begin && direction.time <= end;
+    if (is_its_own && (is_late || !direction.is_told)) sum += direction.unit;
+    direction.is_told = true;
   }
-  last_told_ = told;
   if (sum == core::Vector2::Zero()) sum = directions_.back().unit;
   return std::atan2(sum.y(), sum.x());
 }
@@ -182,7 +182,7 @@ bool DeadReckoning::is_after_pause(const Step& step) const {
 }
 
 void DeadReckoning::remember_heading(core::DeviceTime time, double heading_rad) {
-  directions_.push_back({time, core::Vector2(std::cos(heading_rad), std::sin(heading_rad))});
+  directions_.push_back({time, core::Vector2(std::cos(heading_rad), std::sin(heading_rad)), false});
   // Twice the longest step holds one that is confirmed late, and the validity's wait one more.
   const double kept_s = 2.0 * longest_interval_s_ + 2.0 * options_.step_validity.half_window_s;
   while (directions_.front().time < time - core::from_seconds(kept_s)) directions_.pop_front();

@@ -82,6 +82,7 @@ class DeadReckoning {
   struct Direction {
     core::DeviceTime time;
     core::Vector2 unit;
+    bool is_told = false;  ///< As part of an earlier step.
   };
   std::optional<observation::MotionDelta> add_accelerometer(
       const sample::AccelerometerSample& sample);
@@ -101,7 +102,6 @@ class DeadReckoning {
   StepValidity validity_;
   StrideModel stride_;
   std::optional<double> last_interval_s_;
-  std::optional<core::DeviceTime> last_told_;
   std::deque<Direction> directions_;  ///< Of the phone, as far back as a step may have been.
 };
 

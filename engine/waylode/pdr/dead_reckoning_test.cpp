@@ -54,8 +54,9 @@ struct Person {
   bool compass = true;
 };
 
-std::vector<MotionDelta> reckon(const Person& person, double duration_s) {
-  DeadReckoning reckoning(options());
+std::vector<MotionDelta> reckon(const Person& person, double duration_s,
+                                const DeadReckoning::Options& with = options()) {
+  DeadReckoning reckoning(with);
   std::vector<MotionDelta> deltas;
   for (int i = 0; i < static_cast<int>(50.0 * duration_s); ++i) {
     const double time_s = 0.02 * i;
@@ -151,6 +152,154 @@ TEST(DeadReckoning, TellsNothingWithoutAHeading) {
   EXPECT_TRUE(reckon({.compass = false}, 10.0).empty());
 }
 
+class DeadReckoningByDetector : public testing::TestWithParam<DeadReckoning::Detector> {};
+
+TEST_P(DeadReckoningByDetector, WalksAndTurns) {
+  DeadReckoning::Options with = options();
+  with.detector = GetParam();
+  constexpr double kTurn_radps = 0.25;
+  const Person person{
+      .heading_rad = 2.5, .turn_rate_radps = kTurn_radps, .body_from_device = held(0.3, 0.1)};
+  const auto deltas = reckon(person, 40.0, with);
+  EXPECT_NEAR(static_cast<double>(deltas.size()), 40.0 * kCadence_hz, 2.0);
+  for (std::size_t i = 1; i < deltas.size(); ++i) {
+    // Its heading is that of a step ago at the earliest and of when it was told at the latest.
+    const double lag_rad =
+        core::wrap_angle(2.5 + kTurn_radps * core::to_seconds(deltas[i].end.time_since_epoch()) -
+                         deltas[i].heading_rad);
+    EXPECT_GT(lag_rad, -0.5 * kTurn_radps);
+    EXPECT_LT(lag_rad, 0.7 * kTurn_radps);
+    EXPECT_LT(deltas[i - 1].end, deltas[i].end);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DeadReckoningByDetector,
+                         testing::Values(DeadReckoning::Detector::kThreshold,
+                                         DeadReckoning::Detector::kAdaptivePeaks,
+                                         DeadReckoning::Detector::kGaussianPeaks,
+                                         DeadReckoning::Detector::kExtrema));
+
+TEST(DeadReckoning, FillsTheFeaturesOfAStride) {
+  for (const MotionDelta& delta : reckon({.bounce_mps2 = 3.0}, 20.0)) {
+    // Of the smoothed wave: the two stages pass 1 / (1 + (1.8 / 3)^2) of 3 m/s2.
+    const double amplitude_mps2 = 3.0 / 1.36;
+    if (delta.end < device_time_from_seconds(3.0)) continue;
+    EXPECT_NEAR(delta.stride.swing_root, std::pow(2.0 * amplitude_mps2, 0.25), 0.02);
+    EXPECT_NEAR(delta.stride.mean_abs_time_mps, 2.0 / kPi * amplitude_mps2 / kCadence_hz, 0.05);
+  }
+}
+
+TEST(DeadReckoning, TakesCorrectedGainsBack) {
+  DeadReckoning::Options with = options();
+  with.stride.model = StrideModel::Model::kImproved;
+  DeadReckoning reckoning(with);
+  reckoning.set_stride_gains({.mean_gain = 0.13, .swing_gain = 0.3, .scale_ratio = 0.9});
+  std::size_t steps = 0;
+  reckoning.add(sample::RotationSample{device_time_from_seconds(0.0), held(0.0, 0.0)});
+  for (int i = 0; i < 1000; ++i) {
+    const double time_s = 0.02 * i;
+    const double up_mps2 = kStandardGravity_mps2 + 3.0 * std::sin(2.0 * kPi * 1.8 * time_s);
+    const auto delta = reckoning.add(
+        sample::AccelerometerSample{device_time_from_seconds(time_s), {0.0, 0.0, up_mps2}});
+    if (!delta) continue;
+    ++steps;
+    EXPECT_NEAR(delta->length_m,
+                0.9 * (0.13 * delta->stride.mean_abs_time_mps + 0.3 * delta->stride.swing_root),
+                1e-12);
+  }
+  EXPECT_GT(steps, 30U);
+}
+
+/// Walks straight on for 20 s, then 6 s of weak steps while looking aside and back, then on.
+std::vector<MotionDelta> photographer(DeadReckoning::Validity validity) {
+  DeadReckoning::Options with = options();
+  with.validity = validity;
+  DeadReckoning reckoning(with);
+  std::vector<MotionDelta> deltas;
+  for (int i = 0; i < 50 * 40; ++i) {
+    const double time_s = 0.02 * i;
+    const auto time = device_time_from_seconds(time_s);
+    const bool aside = time_s >= 20.0 && time_s < 26.0;
+    const double turn_radps = aside ? 1.6 * std::sin(2.0 * kPi * (time_s - 20.0) / 3.0) : 0.0;
+    const double bounce_mps2 = aside ? 1.6 : 4.0;
+    if (i == 0) reckoning.add(sample::RotationSample{time, held(0.0, 0.0)});
+    reckoning.add(sample::GyroscopeSample{time, {0.0, 0.0, turn_radps}});
+    const double up_mps2 =
+        kStandardGravity_mps2 + bounce_mps2 * std::sin(2.0 * kPi * kCadence_hz * time_s);
+    if (const auto delta = reckoning.add(sample::AccelerometerSample{time, {0.0, 0.0, up_mps2}})) {
+      deltas.push_back(*delta);
+    }
+  }
+  return deltas;
+}
+
+TEST(DeadReckoning, GivesStepsInPlaceNoLength) {
+  for (const MotionDelta& delta : photographer(DeadReckoning::Validity::kOff)) {
+    EXPECT_GT(delta.length_m, 0.0);
+  }
+  for (const auto validity :
+       {DeadReckoning::Validity::kLiteral, DeadReckoning::Validity::kThreeWay}) {
+    std::size_t in_place = 0;
+    core::DeviceTime end = device_time_from_seconds(0.0);
+    for (const MotionDelta& delta : photographer(validity)) {
+      EXPECT_LT(end, delta.end);
+      end = delta.end;
+      if (delta.length_m > 0.0) continue;
+      ++in_place;
+      EXPECT_GT(delta.end, device_time_from_seconds(19.0));
+      EXPECT_LT(delta.end, device_time_from_seconds(27.0));
+      EXPECT_EQ(delta.stride, observation::StrideFeatures{});
+      EXPECT_GT(delta.length_sigma_m, 0.0);
+    }
+    EXPECT_GE(in_place, 5U);
+  }
+}
+
+TEST(DeadReckoning, TellsTheHeadingOfAStepThatHadToWait) {
+  // A quarter turn at 20 s: steps before it head east, though told after it began.
+  DeadReckoning::Options with = options();
+  with.validity = DeadReckoning::Validity::kThreeWay;
+  DeadReckoning reckoning(with);
+  std::size_t before = 0;
+  for (int i = 0; i < 50 * 30; ++i) {
+    const double time_s = 0.02 * i;
+    const auto time = device_time_from_seconds(time_s);
+    const bool turning = time_s >= 20.0 && time_s < 20.5;
+    if (i == 0) reckoning.add(sample::RotationSample{time, held(0.0, 0.0)});
+    reckoning.add(sample::GyroscopeSample{time, {0.0, 0.0, turning ? kPi : 0.0}});
+    const double up_mps2 = kStandardGravity_mps2 + 3.0 * std::sin(2.0 * kPi * kCadence_hz * time_s);
+    const auto delta = reckoning.add(sample::AccelerometerSample{time, {0.0, 0.0, up_mps2}});
+    if (!delta) continue;
+    if (delta->end < device_time_from_seconds(20.0)) {
+      ++before;
+      EXPECT_NEAR(delta->heading_rad, 0.0, 1e-9);
+    }
+    if (delta->begin > device_time_from_seconds(20.52)) {
+      EXPECT_NEAR(delta->heading_rad, kPi / 2.0, 1e-6);
+    }
+  }
+  EXPECT_GT(before, 30U);
+}
+
+TEST(DeadReckoning, HeadsByTheRawCompassWhereAsked) {
+  DeadReckoning::Options with = options();
+  with.heading_source = DeadReckoning::HeadingSource::kCompass;
+  with.compass.declination_rad = 0.1;
+  DeadReckoning reckoning(with);
+  const auto time = device_time_from_seconds(0.0);
+  EXPECT_FALSE(reckoning.up_in_device());
+  reckoning.add(sample::AccelerometerSample{time, {0.0, 0.0, 9.8}});
+  EXPECT_NEAR(reckoning.up_in_device()->z(), 1.0, 1e-12);
+  reckoning.add(sample::RotationSample{time, held(0.0, 0.0)});
+  EXPECT_FALSE(reckoning.heading_rad());
+  // The field points 30 uT to the left: the long axis points to magnetic east.
+  MagnetometerCalibration calibration;
+  calibration.hard_iron_ut = {5.0, 6.0, 7.0};
+  reckoning.set_magnetometer_calibration(calibration);
+  reckoning.add(sample::MagnetometerSample{time, {-25.0, 6.0, -33.0}, 3});
+  EXPECT_NEAR(*reckoning.heading_rad(), -0.1, 1e-12);
+}
+
 TEST(DeadReckoning, PassesOverOtherSamples) {
   DeadReckoning reckoning(options());
   EXPECT_FALSE(reckoning.add(sample::BarometerSample{device_time_from_seconds(1.0), 1000.0}));
@@ -168,6 +317,11 @@ TEST(DeadReckoning, RefusesTheOptionsOfAnyPart) {
   EXPECT_TRUE(refused([](auto& o) { o.heading.initial_sigma_rad = -1.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.step.low_pass_hz = -1.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.stride.shortest_m = -1.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.adaptive_peaks.low_pass_hz = -1.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.gaussian_peaks.window_s = -1.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.extrema.decimator.interval_s = -1.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.step_validity.half_window_s = -1.0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.compass.compass_sigma_rad = -1.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.step_heading_sigma_rad = 0.0; }));
   EXPECT_TRUE(refused([](auto& o) { o.step_length_sigma_ratio = 0.0; }));
 }

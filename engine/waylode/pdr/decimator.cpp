@@ -40,8 +40,14 @@ std::optional<TimedValue> Decimator::add(core::DeviceTime time, double value) {
   const core::Duration interval = core::from_seconds(options_.interval_s);
   if (!due_) due_ = time;
   if (options_.anti_alias) {
+    // Nothing to average with what came so long before: it would be told for a time in between.
+    const bool alone = !samples_.empty() && time - samples_.back().time > 2 * interval;
+    if (alone) {
+      samples_.clear();
+      due_ = time + interval;
+    }
     samples_.push_back({time, value});
-    return average(time);
+    return alone ? std::optional(samples_.front()) : average(time);
   }
   // A tenth of an interval of grace, lest jitter makes every fifth sample of the fourth.
   if (time < *due_ - interval / 10) return std::nullopt;
@@ -65,7 +71,7 @@ std::optional<TimedValue> Decimator::average(core::DeviceTime now) {
     weight_sum += weight;
     sum += weight * sample.value;
   }
-  if (!(weight_sum > 0.0)) return samples_.back();  // The samples are further apart than that.
+  WAYLODE_ASSERT(weight_sum > 0.0);
   return TimedValue{centre, sum / weight_sum};
 }
 

@@ -19,7 +19,7 @@ namespace waylode::pdr {
 class ExtremumStepDetector final : public StepSource {
  public:
   struct Options {
-    Decimator::Options decimator;
+    Decimator::Options decimator{};
     double peak_threshold_mps2 = 0.6;     ///< [Zhong2017] p.
     double trough_threshold_mps2 = -0.6;  ///< [Zhong2017] q, below p.
     /// On: once above p, then below q, whatever lies between. Off: the peak and the trough must

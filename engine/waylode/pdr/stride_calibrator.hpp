@@ -23,7 +23,7 @@ class StrideCalibrator {
 
   struct Options {
     Unknown unknown = Unknown::kGains;
-    StrideGains prior;                ///< Where it starts.
+    StrideGains prior{};              ///< Where it starts.
     double mean_gain_sigma = 0.03;    ///< Doubt of prior.mean_gain; > 0.
     double swing_gain_sigma = 0.05;   ///< Doubt of prior.swing_gain; > 0.
     double scale_sigma_ratio = 0.08;  ///< Doubt of prior.scale_ratio; > 0.

@@ -14,7 +14,7 @@ using observation::RadioObservation;
 class RadioEstimator : public Estimator {
  public:
   using Estimator::add;
-  void add(const RadioObservation& observation, const NearMatch& /*near*/) final {
+  void add(const RadioObservation& observation, const HeardAgain& /*again*/) final {
     hear(observation);
   }
   void add(const observation::MagneticObservation& /*observation*/) final {}

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "waylode/core/fix.hpp"
 #include "waylode/observation/observation.hpp"
@@ -12,9 +13,18 @@
 
 namespace waylode::pipeline {
 
-/// Matches the scan that was just heard once more, among the surveyed places near a belief; nullopt
-/// when none is near.
-using NearMatch = std::function<std::optional<observation::RadioObservation>(const core::Belief&)>;
+/// The scan that was just heard, for estimators that match it again.
+class HeardAgain {
+ public:
+  virtual ~HeardAgain() = default;
+  /// Among the surveyed places near a belief, with how well they fit as the floor's
+  /// log_likelihood; nullopt when none is near.
+  virtual std::optional<observation::RadioObservation> near(const core::Belief& around) const = 0;
+  /// The places of a floor that fit this scan and those of the seconds before it best, apart from
+  /// each other; floor frame, the best first.
+  virtual std::vector<core::Vector2> alternatives(core::FloorId floor, std::size_t count,
+                                                  double apart_m) const = 0;
+};
 
 /// What a method does with steps and scans. The session feeds it; methods differ only here.
 class Estimator {
@@ -22,7 +32,7 @@ class Estimator {
   virtual ~Estimator() = default;
   virtual void add(const observation::MotionDelta& motion) = 0;
   /// A scan placed on the whole map.
-  virtual void add(const observation::RadioObservation& observation, const NearMatch& near) = 0;
+  virtual void add(const observation::RadioObservation& observation, const HeardAgain& again) = 0;
   virtual void add(const observation::MagneticObservation& observation) = 0;
   /// A scan of which the map knows nothing: tells no place, but that the phone is off the map. The
   /// state is `outside` until a known scan comes; the belief stays.

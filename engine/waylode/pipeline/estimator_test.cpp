@@ -25,9 +25,16 @@ std::unique_ptr<Estimator> make(const Model& model, const char* method,
 }
 
 /// For estimators that match no scan twice.
-NearMatch nowhere() {
-  return [](const core::Belief&) { return std::nullopt; };
-}
+class Nowhere final : public HeardAgain {
+ public:
+  std::optional<observation::RadioObservation> near(const core::Belief&) const override {
+    return std::nullopt;
+  }
+  std::vector<core::Vector2> alternatives(FloorId, std::size_t, double) const override {
+    return {};
+  }
+};
+Nowhere nowhere() { return {}; }
 
 void tell(Estimator& estimator, const observation::RadioObservation& scan) {
   estimator.add(scan, nowhere());

@@ -119,6 +119,11 @@ core::Result<PositionerPtr> Model::near_positioner() const {
   return shared_->near;
 }
 
+core::Result<const radio::ReferenceMap*> Model::reference_map() const {
+  const std::scoped_lock lock(shared_->mutex);
+  return shared_->reference_map(*this);
+}
+
 core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> Model::fields() const {
   const std::scoped_lock lock(shared_->mutex);
   if (site_->magnetic_map().empty()) {

@@ -11,6 +11,7 @@
 #include "waylode/pipeline/options.hpp"
 #include "waylode/radio/matcher.hpp"
 #include "waylode/radio/positioner.hpp"
+#include "waylode/radio/reference_map.hpp"
 #include "waylode/site/site.hpp"
 
 namespace waylode::pipeline {
@@ -38,6 +39,8 @@ class Model {
   core::Result<std::shared_ptr<const radio::Positioner>> positioner(RadioPart part) const;
   /// How scans are placed near a place.
   core::Result<std::shared_ptr<const radio::Positioner>> near_positioner() const;
+  /// The map gathered to reference points; lives as long as the model.
+  core::Result<const radio::ReferenceMap*> reference_map() const;
   /// Per floor. kMapMissing without a magnetic map.
   core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> fields() const;
 

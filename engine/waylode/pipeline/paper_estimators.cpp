@@ -28,7 +28,7 @@ class DecisionMethod final : public PlaneEstimator {
  private:
   void start(const PlanarEstimate& place) override { flow_.start(place); }
   void step(const observation::MotionDelta& motion) override { flow_.add(motion); }
-  void hear(const PlanarMeasurement& whole_map, const NearPlace&) override { flow_.add(whole_map); }
+  void hear(const PlanarMeasurement& whole_map, const Again&) override { flow_.add(whole_map); }
   std::optional<PlanarEstimate> place_at(core::DeviceTime time) const override {
     if (!flow_.started()) return std::nullopt;
     return flow_.at(time);
@@ -58,18 +58,18 @@ class MagneticMethod final : public PlaneEstimator {
     place_->covariance_m2 += variance_m2 * core::Matrix2::Identity();
     place_->time = motion.end;
   }
-  void hear(const PlanarMeasurement& whole_map, const NearPlace&) override {
+  void hear(const PlanarMeasurement& whole_map, const Again&) override {
     if (!place_) place_ = {whole_map.delivered, whole_map.position_m, whole_map.covariance_m2};
   }
   void feel(const PlanarEstimate& place) override {
     place_ = place;
-    place_->position_m += path_.since_m(place.time);
+    place_->position_m -= path_.offset_m(place.time);
   }
   std::optional<PlanarEstimate> place_at(core::DeviceTime time) const override {
     std::optional<PlanarEstimate> place = place_;
     if (!place) return place;
     place->time = time;
-    place->position_m += path_.beyond_m(time);
+    place->position_m += path_.offset_m(time);
     return place;
   }
 
@@ -88,7 +88,7 @@ class IntervalMethod final : public PlaneEstimator {
  private:
   void start(const PlanarEstimate& place) override { tracker_.start(place); }
   void step(const observation::MotionDelta& motion) override { tracker_.add(motion); }
-  void hear(const PlanarMeasurement& whole_map, const NearPlace&) override {
+  void hear(const PlanarMeasurement& whole_map, const Again&) override {
     tracker_.add_radio(whole_map);
   }
   void feel(const PlanarEstimate& place) override { tracker_.add_magnetic(place); }
@@ -104,20 +104,25 @@ class FeedbackMethod final : public PlaneEstimator {
  public:
   FeedbackMethod(const Model& model, const SessionOptions& options,
                  const fusion::FeedbackTracker::Options& tracker)
-      : PlaneEstimator(model, options), tracker_(tracker) {
+      : PlaneEstimator(model, options), options_(tracker), tracker_(tracker) {
     begin();
   }
 
  private:
-  void start(const PlanarEstimate& place) override { tracker_.start({&place, 1}); }
-  void step(const observation::MotionDelta& motion) override { tracker_.add(motion); }
-  void hear(const PlanarMeasurement& whole_map, const NearPlace& near) override {
+  void start(const PlanarEstimate& place) override {
+    tracker_.start({&place, 1});
+    settled_ = true;
+  }
+  void step(const observation::MotionDelta& motion) override {
+    tracker_.add(motion);
+    settled_ = settled_ || tracker_.started();
+  }
+  void hear(const PlanarMeasurement& whole_map, const Again& again) override {
+    // While nobody has moved, all that was heard so far tells of the start.
+    if (!settled_) return start_anywhere(whole_map, again);
     tracker_.compare(whole_map);
     std::vector<std::optional<fusion::CircleMatch>> found;
-    for (const core::Vector2& centre : tracker_.centres()) {
-      const auto match = near(centre);
-      found.push_back(match ? std::optional(fusion::CircleMatch{*match}) : std::nullopt);
-    }
+    for (const core::Vector2& centre : tracker_.centres()) found.push_back(again.near(centre));
     tracker_.correct(found);
   }
   std::optional<PlanarEstimate> place_at(core::DeviceTime time) const override {
@@ -125,7 +130,24 @@ class FeedbackMethod final : public PlaneEstimator {
     return tracker_.at(time);
   }
 
+  void start_anywhere(const PlanarMeasurement& whole_map, const Again& again) {
+    std::vector<PlanarEstimate> places;
+    if (options_.hypotheses > 1) {
+      constexpr double kApart_m = 3.0;
+      for (const core::Vector2& place_m :
+           again.alternatives(static_cast<std::size_t>(options_.hypotheses), kApart_m)) {
+        places.push_back({whole_map.delivered, place_m, core::Matrix2::Identity()});
+      }
+    }
+    if (places.empty()) {
+      places.push_back({whole_map.delivered, whole_map.position_m, whole_map.covariance_m2});
+    }
+    tracker_.start(places);
+  }
+
+  fusion::FeedbackTracker::Options options_;
   fusion::FeedbackTracker tracker_;
+  bool settled_ = false;
 };
 
 }  // namespace

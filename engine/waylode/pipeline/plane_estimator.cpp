@@ -36,23 +36,30 @@ void PlaneEstimator::add(const observation::MotionDelta& motion) {
   step(fusion::on_site_frame(motion, model_->site()->floor(*floor())));
 }
 
-void PlaneEstimator::add(const observation::RadioObservation& observation, const NearMatch& near) {
+void PlaneEstimator::add(const observation::RadioObservation& observation,
+                         const HeardAgain& again) {
   floor_filter_.add(observation);
   newest_scan_ = fusion::HeardScan{observation.delivered, observation.known_share_ratio};
   const core::FloorId here = *floor();
   const site::Site& site = *model_->site();
   const auto* hypothesis = fusion::find_hypothesis(observation, here);
   if (hypothesis == nullptr) return;
-  const NearPlace near_place =
-      [&](const core::Vector2& place_m) -> std::optional<fusion::PlanarMeasurement> {
-    const core::Belief around = to_floor(site, here, 1.0, {observation.delivered, place_m});
-    const auto matched = near(around);
-    if (!matched) return std::nullopt;
-    const auto* found = fusion::find_hypothesis(*matched, here);
-    if (found == nullptr) return std::nullopt;
-    return fusion::to_site_frame(site, *matched, *found);
-  };
-  hear(fusion::to_site_frame(site, observation, *hypothesis), near_place);
+  hear(fusion::to_site_frame(site, observation, *hypothesis), Again(site, here, again));
+}
+
+std::optional<fusion::CircleMatch> PlaneEstimator::Again::near(const core::Vector2& place_m) const {
+  const auto matched = again_.near(to_floor(site_, floor_, 1.0, {core::DeviceTime(), place_m}));
+  if (!matched) return std::nullopt;
+  const auto* found = fusion::find_hypothesis(*matched, floor_);
+  if (found == nullptr) return std::nullopt;
+  return fusion::CircleMatch{fusion::to_site_frame(site_, *matched, *found), found->log_likelihood};
+}
+
+std::vector<core::Vector2> PlaneEstimator::Again::alternatives(std::size_t count,
+                                                               double apart_m) const {
+  std::vector<core::Vector2> places = again_.alternatives(floor_, count, apart_m);
+  for (core::Vector2& place_m : places) place_m = site_.site_from_floor(floor_, place_m);
+  return places;
 }
 
 void PlaneEstimator::add(const observation::MagneticObservation& observation) {

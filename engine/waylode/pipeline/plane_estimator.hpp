@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <vector>
 
+#include "waylode/fusion/feedback_tracker.hpp"
 #include "waylode/fusion/floor_filter.hpp"
 #include "waylode/fusion/fused_tracker.hpp"
 #include "waylode/fusion/planar_estimate.hpp"
@@ -17,22 +18,33 @@ namespace waylode::pipeline {
 class PlaneEstimator : public Estimator {
  public:
   void add(const observation::MotionDelta& motion) final;
-  void add(const observation::RadioObservation& observation, const NearMatch& near) final;
+  void add(const observation::RadioObservation& observation, const HeardAgain& again) final;
   void add(const observation::MagneticObservation& observation) final;
   void hear_unknown(core::DeviceTime delivered) final;
   std::optional<core::Belief> belief_at(core::DeviceTime time) const final;
   core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const final;
 
  protected:
-  /// The scan just heard, matched among the surveyed places near a place of the site frame.
-  using NearPlace = std::function<std::optional<fusion::PlanarMeasurement>(const core::Vector2&)>;
+  /// HeardAgain in the site frame, on the floor the person is thought to be on.
+  class Again {
+   public:
+    Again(const site::Site& site, core::FloorId floor, const HeardAgain& again)
+        : site_(site), floor_(floor), again_(again) {}
+    std::optional<fusion::CircleMatch> near(const core::Vector2& place_m) const;
+    std::vector<core::Vector2> alternatives(std::size_t count, double apart_m) const;
+
+   private:
+    const site::Site& site_;
+    core::FloorId floor_;
+    const HeardAgain& again_;
+  };
 
   PlaneEstimator(const Model& model, const SessionOptions& options);
 
   /// Told before everything else when the session has a start.
   virtual void start(const fusion::PlanarEstimate& place) = 0;
   virtual void step(const observation::MotionDelta& motion) = 0;
-  virtual void hear(const fusion::PlanarMeasurement& whole_map, const NearPlace& near) = 0;
+  virtual void hear(const fusion::PlanarMeasurement& whole_map, const Again& again) = 0;
   /// Most methods have no use for the field.
   virtual void feel(const fusion::PlanarEstimate& /*place*/) {}
   /// nullopt before anything is known.

@@ -3,11 +3,13 @@
 #include "waylode/pipeline/session.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "waylode/pdr/dead_reckoning.hpp"
 #include "waylode/pipeline/estimator.hpp"
 #include "waylode/pipeline/field_matching.hpp"
+#include "waylode/radio/alternatives.hpp"
 #include "waylode/radio/scan_assembler.hpp"
 #include "waylode/radio/wknn.hpp"
 
@@ -22,6 +24,41 @@ pdr::DeadReckoning::Options with_parts(pdr::DeadReckoning::Options options, cons
   return options;
 }
 
+/// The scan just heard and those of the seconds before it.
+class HeardScans final : public HeardAgain {
+ public:
+  explicit HeardScans(const Model& model) : model_(model) {}
+
+  void add(const radio::Query& query) {
+    constexpr double kKept_s = 4.0;
+    while (!queries_.empty() &&
+           core::to_seconds(query.delivered - queries_.front().delivered) > kKept_s) {
+      queries_.pop_front();
+    }
+    queries_.push_back(query);
+  }
+  std::optional<observation::RadioObservation> near(const core::Belief& around) const override {
+    const auto positioner = model_.near_positioner();
+    if (!positioner) return std::nullopt;
+    auto placed = (*positioner)->estimate(queries_.back(), around.floor, around);
+    return placed ? std::optional(std::move(placed->observation)) : std::nullopt;
+  }
+  std::vector<core::Vector2> alternatives(core::FloorId floor, std::size_t count,
+                                          double apart_m) const override {
+    const auto map = model_.reference_map();
+    if (!map) return {};
+    std::vector<radio::QueryReading> readings;
+    for (const radio::Query& query : queries_) {
+      readings.insert(readings.end(), query.readings.begin(), query.readings.end());
+    }
+    return radio::alternatives(**map, readings, floor, count, apart_m);
+  }
+
+ private:
+  const Model& model_;
+  std::deque<radio::Query> queries_;
+};
+
 }  // namespace
 
 struct Session::Pipeline {
@@ -30,6 +67,7 @@ struct Session::Pipeline {
   SessionOptions options;
   pdr::DeadReckoning reckoning;
   radio::ScanAssembler assembler;
+  HeardScans heard;
   radio::WknnEstimator foreign;                         ///< Tells scans of elsewhere.
   std::shared_ptr<const radio::Positioner> positioner;  ///< None: the method has no radio.
   std::unique_ptr<FieldMatching> field;  ///< None: the method has no use for the field.
@@ -44,17 +82,9 @@ struct Session::Pipeline {
       if (foreign.is_foreign(query)) estimator->hear_unknown(query.delivered);
       return;
     }
-    estimator->add(placed->observation,
-                   [&](const core::Belief& around) { return match_near(query, around); });
+    heard.add(query);
+    estimator->add(placed->observation, heard);
     last_scan = query.delivered;
-  }
-
-  std::optional<observation::RadioObservation> match_near(const radio::Query& query,
-                                                          const core::Belief& around) const {
-    const auto near = model->near_positioner();
-    if (!near) return std::nullopt;
-    auto again = (*near)->estimate(query, around.floor, around);
-    return again ? std::optional(std::move(again->observation)) : std::nullopt;
   }
 
   /// Advertisements wait for the next Wi-Fi scan; when none comes they are matched by themselves.
@@ -112,9 +142,9 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
   }
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
       model, method, options, pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
-      radio::ScanAssembler(tunables.scan), radio::WknnEstimator(model->matcher(), tunables.wknn),
-      std::move(positioner), std::move(field), make_estimator(*model, method, options),
-      std::nullopt, std::nullopt});
+      radio::ScanAssembler(tunables.scan), HeardScans(*model),
+      radio::WknnEstimator(model->matcher(), tunables.wknn), std::move(positioner),
+      std::move(field), make_estimator(*model, method, options), std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 

@@ -20,6 +20,10 @@ class CircleKnn final : public Positioner {
     /// Error covariance = base^2 I + spread_gain * weighted scatter of the neighbours.
     double base_sigma_m = 1.0;
     double spread_gain = 1.0;
+    /// How well the best point fits: -n/2 (root mean square difference / sigma)^2, n the readings
+    /// but no more than these, since readings of one scan err together; above 0.
+    double reading_sigma_db = 6.0;
+    double independent_readings = 6.0;
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
@@ -28,8 +32,9 @@ class CircleKnn final : public Positioner {
   /// `map` must outlive this; `options` must be valid.
   CircleKnn(const ReferenceMap& map, const Options& options) : map_(&map), options_(options) {}
 
-  /// nullopt when the circle is empty: keep dead reckoning then. Without a prior, or with one of
-  /// another floor than the known one, all points compare.
+  /// Around a prior, the floor's log_likelihood tells how well the best point there fits what was
+  /// heard. nullopt when the circle is empty: keep dead reckoning then. Without a prior, or with
+  /// one of another floor than the known one, all points compare.
   std::optional<Positioning> estimate(const Query& query, std::optional<core::FloorId> known_floor,
                                       const std::optional<core::Belief>& prior) const override;
 

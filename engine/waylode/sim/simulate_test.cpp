@@ -244,6 +244,54 @@ TEST(Simulate, HearsLogDistanceThroughThePhonesScale) {
   EXPECT_EQ(scans[4].readings[0].rssi_dbm, -57.0F);
 }
 
+TEST(Simulate, DeliversInstantScansLate) {
+  Scenario scenario = quiet_scenario({"F1/1", "F1/2"});
+  PhoneOptions& phone = scenario.walkers[0].phone;
+  phone.scan_sweep_s = phone.scan_cache_s = phone.scan_miss_ratio = 0.0;
+  phone.scan_interval_s = 3.0;
+  phone.scan_delay_s = 1.5;
+  const auto scans = all<sample::WifiScan>(run(scenario));
+  ASSERT_GT(scans.size(), 3U);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_FALSE(scans[i].readings.empty());
+    if (i > 0) {
+      EXPECT_NEAR(core::to_seconds(scans[i].time - scans[i - 1].time), 3.0, 1e-6);
+    }
+    for (const sample::WifiReading& reading : scans[i].readings) {
+      EXPECT_NEAR(core::to_seconds(scans[i].time - reading.last_seen), 1.5, 1e-6);
+    }
+  }
+}
+
+TEST(Simulate, HoldsAFlatPhoneLevel) {
+  Scenario scenario = quiet_scenario({"F1/1", "F1/2"});
+  scenario.walkers[0].phone.is_flat = true;
+  for (const auto& attitude : all<sample::RotationSample>(run(scenario))) {
+    EXPECT_NEAR((attitude.enu_from_device * Vector3::UnitZ() - Vector3::UnitZ()).norm(), 0.0, 1e-9);
+  }
+  scenario.walkers[0].phone.has_attitude = false;
+  EXPECT_TRUE(all<sample::RotationSample>(run(scenario)).empty());
+}
+
+TEST(Simulate, TurnsTheMagnetometerInItsPhone) {
+  Scenario scenario = quiet_scenario({"F1/1", "F1/2"});
+  scenario.walkers[0].phone.is_flat = true;
+  const auto straight = all<sample::MagnetometerSample>(run(scenario));
+  scenario.walkers[0].phone.magnetometer_yaw_sigma_deg = 10.0;
+  const auto turned = all<sample::MagnetometerSample>(run(scenario));
+  // One angle about the vertical: horizontal and vertical parts stay.
+  const auto angle_rad = [](const Vector3& field) { return std::atan2(field.y(), field.x()); };
+  const double first_rad =
+      core::wrap_angle(angle_rad(turned[0].field_ut) - angle_rad(straight[0].field_ut));
+  EXPECT_GT(std::abs(first_rad), 1e-3);
+  for (std::size_t i = 0; i < turned.size(); i += 50) {
+    EXPECT_NEAR(turned[i].field_ut.z(), straight[i].field_ut.z(), 1e-9);
+    EXPECT_NEAR(core::wrap_angle(angle_rad(turned[i].field_ut) - angle_rad(straight[i].field_ut) -
+                                 first_rad),
+                0.0, 1e-9);
+  }
+}
+
 TEST(Simulate, TellsTheTruthAtWaypoints) {
   Scenario scenario = quiet_scenario({"F1/1", "F2/2"});
   scenario.walkers[0].truth_interval_s = 1.0;

@@ -36,8 +36,8 @@ constexpr std::size_t kQuestioned = 8;
 constexpr double kTaut_sigma = 0.5;
 
 detail::PoseGraphOptions graph_options(const Options& options) {
-  return {options.scale_sigma_ratio, options.segment_loss_sigma, options.closure_loss_sigma,
-          options.corner_sigma_rad, options.parallel_sigma_rad};
+  return {options.scale_sigma_ratio,  options.person_sigma_ratio, options.segment_loss_sigma,
+          options.closure_loss_sigma, options.corner_sigma_rad,   options.parallel_sigma_rad};
 }
 
 struct Solution {
@@ -230,6 +230,7 @@ struct Range {
 Result<void> StructureAdjuster::Options::validate() const {
   const Range ranges[] = {
       {"scale_sigma_ratio", scale_sigma_ratio, 0.001, 0.5},
+      {"person_sigma_ratio", person_sigma_ratio, 0.001, 0.5},
       {"landmark_sigma_m", landmark_sigma_m, 0.001, 5.0},
       {"segment_loss_sigma", segment_loss_sigma, 0.5, 100.0},
       {"closure_loss_sigma", closure_loss_sigma, 0.5, 100.0},

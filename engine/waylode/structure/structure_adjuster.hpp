@@ -14,10 +14,11 @@ namespace waylode::structure {
 class StructureAdjuster {
  public:
   struct Options {
-    double scale_sigma_ratio = 0.05;  ///< Of walks' step scales around 1; 0.001 to 0.5.
-    double landmark_sigma_m = 0.3;    ///< How far from a landmark one passes it; 0.001 to 5.
-    double segment_loss_sigma = 2.0;  ///< Huber's corner for segments, in sigmas; 0.5 to 100.
-    double closure_loss_sigma = 2.0;  ///< Cauchy's scale for closures, in sigmas; 0.5 to 100.
+    double scale_sigma_ratio = 0.05;  ///< Of the scale common to all walks, around 1; 0.001 to 0.5.
+    double person_sigma_ratio = 0.03;  ///< Of walks' scales around the common; 0.001 to 0.5.
+    double landmark_sigma_m = 0.3;     ///< How far from a landmark one passes it; 0.001 to 5.
+    double segment_loss_sigma = 2.0;   ///< Huber's corner for segments, in sigmas; 0.5 to 100.
+    double closure_loss_sigma = 2.0;   ///< Cauchy's scale for closures, in sigmas; 0.5 to 100.
     /// A closure goes when leaving it out saves more than this of chi-square with two degrees of
     /// freedom; 5 to 1000. Larger keeps more wrong ones, smaller drops more good ones.
     double rejection_chi_square = 20.0;

@@ -128,8 +128,8 @@ TEST(StructureAdjuster, TellsWhenTheScaleIsNotKnown) {
   const AdjustedStructure loose = adjust({walks, {}, {}});
   EXPECT_FALSE(loose.scale_known);
   EXPECT_THAT(loose.notes, Contains(HasSubstr("no known distance")));
-  // Two independent priors of 5 % each.
-  EXPECT_NEAR(loose.scale_sigma_ratio, 0.05 / std::sqrt(2.0), 2e-3);
+  // 5 % in common, and the mean of two persons' 3 %.
+  EXPECT_NEAR(loose.scale_sigma_ratio, std::hypot(0.05, 0.03 / std::sqrt(2.0)), 1e-3);
   const AdjustedStructure bound = adjust({walks, {{"Door", "Lift", 20.0, 0.05}}, {}});
   EXPECT_TRUE(bound.scale_known);
   EXPECT_LT(bound.scale_sigma_ratio, 0.02);
@@ -147,6 +147,7 @@ TEST(StructureAdjuster, LevelsContradictoryLengthsByTheirAccuracy) {
   survey.walks[1].segments[0].length_sigma_m = 0.3;
   Options options = evidence_only();
   options.scale_sigma_ratio = 0.001;
+  options.person_sigma_ratio = 0.001;
   options.landmark_sigma_m = 0.001;
   options.segment_loss_sigma = 100.0;
   const AdjustedStructure structure = adjust(survey, options);
@@ -446,9 +447,10 @@ TEST(StructureAdjusterConsistency, StatesNodeErrorsHonestly) {
   for (int run = 0; run < kRuns; ++run) {
     core::Rng rng(900 + static_cast<std::uint64_t>(run));
     Survey survey{{}, {{"Door", "Lift", rng.normal(20.0, 0.1), 0.1}}, {}};
+    const double common_ratio = rng.normal(1.0, 0.05);
     for (int i = 0; i < 4; ++i) {
       const Walker walker{.offset_rad = rng.uniform(-3.0, 3.0),
-                          .reading_ratio = rng.normal(1.0, 0.05)};
+                          .reading_ratio = common_ratio + rng.normal(0.0, 0.03)};
       survey.walks.push_back(noisy_walk(kHook, walker, rng));
     }
     const AdjustedStructure structure = adjust(survey, options);

@@ -89,6 +89,10 @@ Vector3 gait_acceleration_mps2(const BodyState& body, double turn_rate_radps,
                                const PhoneHold& hold) {
   if (body.cadence_hz == 0.0) return Vector3::Zero();
   const double ratio = body.step_phase - std::floor(body.step_phase);
+  if (body.is_in_place) {
+    // Soft, without a heel strike.
+    return {0.0, 0.0, 0.5 * body.bounce_mps2 * std::cos(2.0 * kPi * (ratio - 0.12))};
+  }
   const double half_mps2 = body.bounce_mps2 / kRawBounceRange;
   Vector3 sum_mps2(
       0.45 * half_mps2 * std::sin(2.0 * kPi * (ratio - 0.05)),

@@ -82,7 +82,7 @@ void Receiver::sense_wifi(const Walk& walk, core::DeviceTime epoch,
   constexpr double kRounding_s = 1e-6;
   const double oldest_s =
       std::max(sweep_s + phone_.scan_delay_s, phone_.scan_cache_s) + kRounding_s;
-  double delivery_s = rng_.uniform(0.2, 1.0) * phone_.scan_interval_s;
+  double delivery_s = phone_.scan_delay_s + rng_.uniform(0.2, 1.0) * phone_.scan_interval_s;
   for (; delivery_s <= walk.duration_s(); delivery_s += phone_.scan_interval_s) {
     sample::WifiScan scan;
     scan.time = epoch + core::from_seconds(delivery_s);

@@ -227,6 +227,7 @@ BodyState Walk::at(double t_s) const {
   }
   state.heading_rad = spell.start_heading_rad + stroke.path.heading_rad(arc_m);
   if (!spell.is_effective) {
+    state.is_in_place = true;
     const double swung =
         std::sin(core::kPi * (t_s - spell.turn_start_s) / (spell.turn_end_s - spell.turn_start_s));
     state.heading_rad += spell.turn_rad * swung * swung;

@@ -39,6 +39,7 @@ struct BodyState {
   double bounce_mps2 = 0.0;  ///< Peak to peak of the vertical acceleration. [Weinberg2002]
   bool is_first_step = false;
   bool is_last_step = false;
+  bool is_in_place = false;  ///< Steps without leading on.
 };
 
 /// A walk laid out in time: spells of standing (and turning on the spot) and steps, some of them in

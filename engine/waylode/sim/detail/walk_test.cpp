@@ -123,6 +123,81 @@ TEST(Walk, TurnsRoundOnTheSpot) {
   EXPECT_NEAR(turned_rad, 3.1416, 0.2);
 }
 
+TEST(Walk, StepsInPlaceForPhotosAndDodges) {
+  GaitOptions gait;
+  gait.photo_stops = 2.0;
+  gait.dodges = 3.0;
+  const Walked walked(kCorner, {"1", "2", "3", "1"}, gait);
+  double by_steps_m = 0.0;
+  int in_place = 0;
+  double before_s = 0.0;
+  for (const Walk::Step& step : walked.walk->steps()) {
+    by_steps_m += step.length_m;
+    if (!step.is_effective) {
+      ++in_place;
+      EXPECT_EQ(step.length_m, 0.0);
+      EXPECT_NEAR(step.end_s - before_s, 1.0 / 1.5, 1e-9);
+      EXPECT_LT(
+          (walked.walk->at(step.end_s).position_m - walked.walk->at(before_s).position_m).norm(),
+          1e-9);
+    }
+    before_s = step.end_s;
+  }
+  EXPECT_NEAR(by_steps_m, walked.walk->path_length_m(), 1e-9);
+  // 3 to 6 s and 1 to 2 s at 1.5 Hz, rounded.
+  EXPECT_GE(in_place, 2 * 4 + 3 * 1);
+  EXPECT_LE(in_place, 2 * 9 + 3 * 3);
+}
+
+TEST(Walk, TurnsAsideAndBackInPlace) {
+  GaitOptions gait;
+  gait.photo_stops = 1.0;
+  const Walked walked(kCorner, {"1", "2"}, gait);
+  double most_rad = 0.0;
+  double low_mps2 = 0.0;
+  double high_mps2 = 0.0;
+  core::Rng rng(1);
+  const PhoneHold hold({}, rng);
+  for (double t_s = 0.01; t_s <= walked.walk->duration_s(); t_s += 0.01) {
+    const BodyState now = walked.walk->at(t_s);
+    const double turned_rad = now.heading_rad - walked.walk->at(t_s - 0.01).heading_rad;
+    EXPECT_LT(std::abs(turned_rad), 0.03);
+    if (!now.is_in_place) continue;
+    most_rad = std::max(most_rad, std::abs(now.heading_rad));
+    const double up_mps2 = gait_acceleration_mps2(now, 0.0, hold).z();
+    low_mps2 = std::min(low_mps2, up_mps2);
+    high_mps2 = std::max(high_mps2, up_mps2);
+  }
+  EXPECT_GT(most_rad, 50.0 * 3.1416 / 180.0 - 0.01);
+  EXPECT_LT(most_rad, 110.0 * 3.1416 / 180.0 + 0.01);
+  EXPECT_GT(high_mps2 - low_mps2, 2.45);
+  EXPECT_LT(high_mps2 - low_mps2, 5.5);
+  EXPECT_NEAR(walked.walk->at(walked.walk->duration_s()).heading_rad, 0.0, 1e-9);
+}
+
+TEST(Walk, GoesStraightThroughWallsWhenTold) {
+  GaitOptions gait;
+  gait.straight_ways = true;
+  const Walked walked(kCorner, {"1", "3"}, gait);
+  const core::Vector2 from_m = walked.building.find_point("1")->position_m;
+  const core::Vector2 to_m = walked.building.find_point("3")->position_m;
+  EXPECT_NEAR(walked.walk->path_length_m(), (to_m - from_m).norm(), 1e-6);
+}
+
+TEST(Walk, KeepsTheCadenceItIsGiven) {
+  GaitOptions gait;
+  gait.cadence_hz = 1.5;
+  gait.cadence_sigma_ratio = 0.0;
+  gait.end_step_ratio = 1.0;
+  gait.step_sigma_ratio = 0.0;
+  const Walked walked(kCorner, {"1", "2"}, gait);
+  const auto steps = walked.walk->steps();
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    EXPECT_NEAR(steps[i].end_s - steps[i - 1].end_s, 1.0 / 1.5, 1e-9);
+    EXPECT_NEAR(steps[i].length_m, steps[0].length_m, 1e-9);
+  }
+}
+
 TEST(Walk, TapsPlacesInOrderWhereTheyAre) {
   const Walked walked(kCorner, {"1", "2", "3", "2", "1"});
   const auto& taps_s = walked.walk->tap_times_s();

@@ -60,6 +60,7 @@ void scale_to_distances(PoseGraph& graph) {
   const double scale_ratio = known.metres / now_m;
   for (Vector2& node_m : graph.nodes_m) node_m *= scale_ratio;
   for (WalkState& walk : graph.walks) walk.reading_ratio /= scale_ratio;
+  graph.common_ratio /= scale_ratio;
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ struct PoseGraph {
   std::vector<core::Vector2> nodes_m;
   std::vector<WalkState> walks;
   std::vector<double> axes_rad;
+  double common_ratio = 1.0;  ///< Around which the walks' reading ratios lie.
 
   std::vector<SegmentTerm> segments;
   std::vector<TieTerm> ties;
@@ -73,7 +74,8 @@ struct PoseGraph {
 };
 
 struct PoseGraphOptions {
-  double scale_sigma_ratio = 0.05;
+  double scale_sigma_ratio = 0.05;   ///< Of the common ratio around one.
+  double person_sigma_ratio = 0.03;  ///< Of walks' ratios around the common one.
   double segment_loss_sigma = 2.0;
   double tie_loss_sigma = 2.0;
   double corner_sigma_rad = 0.0175;

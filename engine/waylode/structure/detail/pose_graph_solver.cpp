@@ -131,13 +131,25 @@ struct DistanceResidual {
   }
 };
 
-/// A walk's scale is near one.
+/// The scale common to all walks is near one.
+struct CommonRatioResidual {
+  double sigma_ratio;
+
+  template <typename T>
+  bool operator()(const T* common, T* residual) const {
+    residual[0] = (common[0] - T(1.0)) / sigma_ratio;
+    return true;
+  }
+};
+
+/// A walk's scale is near the common one. Were each near one by itself, many walks would outvote
+/// known distances: what the step length law misses is the same for all.
 struct RatioResidual {
   double sigma_ratio;
 
   template <typename T>
-  bool operator()(const T* ratio, T* residual) const {
-    residual[0] = (ratio[0] - T(1.0)) / sigma_ratio;
+  bool operator()(const T* ratio, const T* common, T* residual) const {
+    residual[0] = (ratio[0] - common[0]) / sigma_ratio;
     return true;
   }
 };
@@ -160,11 +172,7 @@ class Assembly {
           new ceres::AutoDiffCostFunction<DistanceResidual, 1, 2, 2>(new DistanceResidual{term}),
           nullptr, node(term.a), node(term.b));
     }
-    for (WalkState& walk : graph.walks) {
-      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RatioResidual, 1, 1>(
-                                    new RatioResidual{options.scale_sigma_ratio}),
-                                nullptr, &walk.reading_ratio);
-    }
+    add_ratios(options);
     problem_.SetParameterBlockConstant(node(graph.fixed_node));
     problem_.SetParameterBlockConstant(&graph.walks[graph.fixed_walk].heading_offset_rad);
     hold_walks_without_segments();
@@ -173,7 +181,7 @@ class Assembly {
   ceres::Problem& problem() { return problem_; }
 
   /// The blocks that are not fixed, in the graph's order, and where the columns of each belong in
-  /// covariance_of's order (axes behind all others).
+  /// covariance_of's order (axes and the common ratio behind all others).
   struct Column {
     double* block;
     int size;
@@ -192,6 +200,7 @@ class Assembly {
       add(&walk.reading_ratio, 1);
     }
     for (double& axis_rad : graph_->axes_rad) add(&axis_rad, 1);
+    add(&graph_->common_ratio, 1);
     return columns;
   }
 
@@ -205,6 +214,18 @@ class Assembly {
       problem_.AddParameterBlock(&walk.reading_ratio, 1);
     }
     for (double& axis_rad : graph_->axes_rad) problem_.AddParameterBlock(&axis_rad, 1);
+    problem_.AddParameterBlock(&graph_->common_ratio, 1);
+  }
+
+  void add_ratios(const PoseGraphOptions& options) {
+    problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<CommonRatioResidual, 1, 1>(
+                                  new CommonRatioResidual{options.scale_sigma_ratio}),
+                              nullptr, &graph_->common_ratio);
+    for (WalkState& walk : graph_->walks) {
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<RatioResidual, 1, 1, 1>(
+                                    new RatioResidual{options.person_sigma_ratio}),
+                                nullptr, &walk.reading_ratio, &graph_->common_ratio);
+    }
   }
 
   /// Nothing says where these headed.
