@@ -21,7 +21,7 @@ class FieldGrid {
  public:
   struct Options {
     double node_m = 0.25;   ///< Between raster nodes. At least 0.05; more on very large floors.
-    double reach_m = 1.0;   ///< A node farther than this from all surveyed points knows nothing.
+    double reach_m = 0.8;   ///< A node farther than this from all surveyed points knows nothing.
     double kernel_m = 0.5;  ///< Sigma of the weight of a point by its distance. Wider: smoother.
 
     core::Result<void> validate() const;

@@ -39,8 +39,8 @@ class SequenceMatcher {
     double largest_turn_rad = 0.2;    ///< The path is tried turned by up to this; 0: as it is.
     double turn_step_rad = 0.1;
     /// The phone's own constant part of the field, per part: 0 trusts the phone (the literal
-    /// equation), large takes the mean difference away entirely. See docs of the module.
-    double bias_sigma_ut = 10.0;
+    /// equation), large takes the mean difference away entirely. See the README.
+    double bias_sigma_ut = 20.0;
     double field_sigma_ut = 3.0;   ///< Of the phone, per part, beside the map's own scatter.
     double correlation_m = 3.0;    ///< Differences closer together on the path are one.
     double map_sigma_m = 0.5;      ///< Of the map's own places, per axis.
