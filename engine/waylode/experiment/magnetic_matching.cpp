@@ -44,11 +44,12 @@ class EvenWalk {
   explicit EvenWalk(double speed_mps) : speed_mps_(speed_mps) {}
 
   std::optional<observation::MotionDelta> add(const FieldWalk::Reading& reading) {
-    if (!begin_) begin_ = reading.time;
+    if (!begun_) begin_ = reading.time;
+    begun_ = true;
     headings_rad_.push_back(reading.heading_rad);
-    if (reading.time - *begin_ < kMotion) return std::nullopt;
+    if (reading.time - begin_ < kMotion) return std::nullopt;
     observation::MotionDelta motion;
-    motion.begin = *begin_;
+    motion.begin = begin_;
     motion.end = reading.time;
     motion.length_m = speed_mps_ * core::to_seconds(motion.end - motion.begin);
     const auto mean = core::circular_mean(headings_rad_);
@@ -60,7 +61,8 @@ class EvenWalk {
 
  private:
   double speed_mps_;
-  std::optional<core::DeviceTime> begin_;
+  bool begun_ = false;
+  core::DeviceTime begin_;
   std::vector<double> headings_rad_;
 };
 

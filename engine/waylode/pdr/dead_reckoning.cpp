@@ -46,9 +46,18 @@ double longest_interval_s(const DeadReckoning::Options& options) {
 
 StepValidity::Options validity_options(const DeadReckoning::Options& options) {
   StepValidity::Options validity = options.step_validity;
-  validity.rule = options.validity == DeadReckoning::Validity::kLiteral
-                      ? StepValidity::Rule::kLiteral
-                      : StepValidity::Rule::kThreeWay;
+  switch (options.validity) {
+    case DeadReckoning::Validity::kLiteral:
+      validity.rule = StepValidity::Rule::kLiteral;
+      break;
+    case DeadReckoning::Validity::kExcursion:
+      validity.rule = StepValidity::Rule::kExcursion;
+      break;
+    case DeadReckoning::Validity::kOff:
+    case DeadReckoning::Validity::kThreeWay:
+      validity.rule = StepValidity::Rule::kThreeWay;
+      break;
+  }
   return validity;
 }
 
@@ -202,7 +211,10 @@ bool DeadReckoning::is_after_pause(const Step& step) const {
 void DeadReckoning::remember_heading(core::DeviceTime time, double heading_rad) {
   directions_.push_back({time, core::Vector2(std::cos(heading_rad), std::sin(heading_rad)), false});
   // Twice the longest step holds one that is confirmed late, and the validity's wait one more.
-  const double kept_s = 2.0 * longest_interval_s_ + 2.0 * options_.step_validity.half_window_s;
+  const double wait_s = options_.validity == Validity::kExcursion
+                            ? options_.step_validity.excursion.longest_s
+                            : 2.0 * options_.step_validity.half_window_s;
+  const double kept_s = 2.0 * longest_interval_s_ + wait_s;
   while (directions_.front().time < time - core::from_seconds(kept_s)) directions_.pop_front();
   if (options_.validity != Validity::kOff) validity_.add_heading(time, heading_rad);
 }

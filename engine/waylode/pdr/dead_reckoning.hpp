@@ -33,7 +33,7 @@ class DeadReckoning {
     kExtrema,        ///< ExtremumStepDetector.
   };
   /// Whether steps in place are found out; they cost the wait of StepValidity's window.
-  enum class Validity { kOff, kLiteral, kThreeWay };
+  enum class Validity { kOff, kLiteral, kThreeWay, kExcursion };
   enum class HeadingSource {
     kRotationVector,  ///< HeadingFilter: the phone's attitude, else the levelled field.
     kCompass,         ///< CompassHeadingFilter: the raw field alone.

@@ -31,11 +31,12 @@ core::Result<void> StepValidity::Options::validate() const {
                       "need half_window_s in (0, 10], scatter_rad > 0 and weak_swing_ratio >= 0",
                       "step_validity");
   }
-  return {};
+  return excursion.validate();
 }
 
 void StepValidity::add_heading(core::DeviceTime time, double heading_rad) {
   if (!std::isfinite(heading_rad)) return;
+  if (options_.rule == Rule::kExcursion) return excursions_.add(time, heading_rad);
   directions_.push_back({time, heading_rad});
   // A step is told some time after it was.
   constexpr double kLateness_s = 5.0;
@@ -47,15 +48,40 @@ void StepValidity::add_heading(core::DeviceTime time, double heading_rad) {
 
 std::optional<StepValidity::Judged> StepValidity::take(core::DeviceTime now) {
   if (waiting_.empty()) return std::nullopt;
+  if (options_.rule == Rule::kExcursion) return take_by_excursion(/*is_last=*/false);
   if (now < waiting_.front().time + core::from_seconds(options_.half_window_s)) return std::nullopt;
   return take_rest();
 }
 
 std::optional<StepValidity::Judged> StepValidity::take_rest() {
   if (waiting_.empty()) return std::nullopt;
+  if (options_.rule == Rule::kExcursion) return take_by_excursion(/*is_last=*/true);
   const Step step = waiting_.front();
   waiting_.pop_front();
   return judge(step);
+}
+
+std::optional<StepValidity::Judged> StepValidity::take_by_excursion(bool is_last) {
+  const Step step = waiting_.front();
+  const auto course = excursions_.judge(step.time, is_last);
+  if (!course) return std::nullopt;
+  waiting_.pop_front();
+  Judged judged{step, Verdict::kWalk, 0.0};
+  if (*course == ExcursionJudge::Verdict::kOnCourse) {
+    remember_swing(step);
+    return judged;
+  }
+  const std::optional<double> usual_mps2 = usual_swing_mps2();
+  const bool is_weak = usual_mps2 && step.swing_mps2 < options_.weak_swing_ratio * *usual_mps2;
+  const bool is_aside = *course == ExcursionJudge::Verdict::kAside;
+  judged.verdict = is_aside || is_weak ? Verdict::kInPlace : Verdict::kTurn;
+  return judged;
+}
+
+void StepValidity::remember_swing(const Step& step) {
+  constexpr std::size_t kSwingsKept = 51;
+  swings_mps2_.push_back(step.swing_mps2);
+  if (swings_mps2_.size() > kSwingsKept) swings_mps2_.pop_front();
 }
 
 StepValidity::Judged StepValidity::judge(const Step& step) {
@@ -68,9 +94,7 @@ StepValidity::Judged StepValidity::judge(const Step& step) {
   }
   Judged judged{step, Verdict::kWalk, direction_scatter_rad(headings_rad)};
   if (judged.scatter_rad <= options_.scatter_rad) {
-    constexpr std::size_t kSwingsKept = 51;
-    swings_mps2_.push_back(step.swing_mps2);
-    if (swings_mps2_.size() > kSwingsKept) swings_mps2_.pop_front();
+    remember_swing(step);
     return judged;
   }
   const std::optional<double> usual_mps2 = usual_swing_mps2();

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "waylode/core/result.hpp"
+#include "waylode/pdr/excursion_judge.hpp"
 #include "waylode/pdr/step_source.hpp"
 
 namespace waylode::pdr {
@@ -21,6 +22,9 @@ class StepValidity {
     kLiteral,
     /// Only where the step is weak as well, for this person, was it one in place.
     kThreeWay,
+    /// Only where the walker came back to the course soon, or the step is weak on a turn; waits for
+    /// the coming back. See ExcursionJudge.
+    kExcursion,
   };
   enum class Verdict { kWalk, kTurn, kInPlace };
 
@@ -29,6 +33,7 @@ class StepValidity {
     double half_window_s = 0.75;     ///< Before and behind the step, (0, 10].
     double scatter_rad = 0.34907;    ///< 20 degrees; 15 finds more photographs; > 0.
     double weak_swing_ratio = 0.75;  ///< Of the person's median swing, below which a step is weak.
+    ExcursionJudge::Options excursion{};  ///< Of kExcursion, which has no use for scatter_rad.
 
     core::Result<void> validate() const;
     bool operator==(const Options&) const = default;
@@ -40,7 +45,8 @@ class StepValidity {
     double scatter_rad = 0.0;
   };
 
-  explicit StepValidity(const Options& options) : options_(options) {}
+  explicit StepValidity(const Options& options)
+      : options_(options), excursions_(options.excursion) {}
 
   /// Headings and steps in order of time, each of its own. Values that are not finite are passed
   /// over.
@@ -54,6 +60,8 @@ class StepValidity {
 
  private:
   Judged judge(const Step& step);
+  std::optional<Judged> take_by_excursion(bool is_last);
+  void remember_swing(const Step& step);
   std::optional<double> usual_swing_mps2() const;
 
   struct Direction {
@@ -61,6 +69,7 @@ class StepValidity {
     double heading_rad = 0.0;
   };
   Options options_;
+  ExcursionJudge excursions_;
   std::deque<Direction> directions_;
   std::deque<Step> waiting_;
   std::deque<double> swings_mps2_;  ///< Of the last steps straight on.

@@ -56,7 +56,7 @@ Recipe zhao2019() {
 Recipe zhong2017() {
   Recipe recipe = plain_pdr();
   recipe.steps = pdr::DeadReckoning::Detector::kExtrema;
-  recipe.validity = pdr::DeadReckoning::Validity::kThreeWay;
+  recipe.validity = pdr::DeadReckoning::Validity::kExcursion;
   recipe.stride = Stride::kChen;
   recipe.heading = pdr::DeadReckoning::HeadingSource::kCompass;
   return recipe;

@@ -102,7 +102,7 @@ TEST(Methods, OfThePapersAreTheRecipesOfTheSpecification) {
   EXPECT_EQ(part_name(zhao, "fusion"), "feedback");
   const Recipe zhong = find_method("zhong2017")->recipe;
   EXPECT_EQ(part_name(zhong, "steps"), "extrema");
-  EXPECT_EQ(part_name(zhong, "validity"), "three_way");
+  EXPECT_EQ(part_name(zhong, "validity"), "excursion");
   EXPECT_EQ(part_name(zhong, "stride"), "chen");
   EXPECT_TRUE(find_method("zhong2017")->needs_start());
 }

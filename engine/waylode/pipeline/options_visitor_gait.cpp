@@ -101,6 +101,18 @@ void visit_other_detectors(pdr::DeadReckoning::Options& pdr, const Visit& visit)
               "A wider scatter of direction is a turn or a step on the spot.")
       .number("weak_swing_ratio", pdr.step_validity.weak_swing_ratio, 0.0, 10.0,
               "Of the person's median swing, below which such a step does not move.");
+  pdr::ExcursionJudge::Options& excursion = pdr.step_validity.excursion;
+  Table("pdr.excursion", visit)
+      .number("leave_rad", excursion.leave_rad, kAboveZero, core::kPi,
+              "So far off the course may be a look aside.")
+      .number("return_rad", excursion.return_rad, kAboveZero, core::kPi,
+              "It ends, and began, where it was no farther than this.")
+      .number("settle_s", excursion.settle_s, kAboveZero, 60.0,
+              "So long on one new course makes a turn.")
+      .number("settled_rad", excursion.settled_rad, kAboveZero, core::kPi,
+              "Scatter of a steady course.")
+      .number("longest_s", excursion.longest_s, kAboveZero, 60.0,
+              "Whoever is not back by then has turned.");
 }
 
 void visit_compass(pdr::CompassHeadingFilter::Options& compass, const Visit& visit) {

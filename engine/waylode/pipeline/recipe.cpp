@@ -36,6 +36,9 @@ constexpr std::array kParts = {
     Part{"validity", "three_way", "walking, turning while walking, stepping on the spot",
          "[Zhong2017]", [](Recipe& r) { r.validity = Validity::kThreeWay; }},
 
+    Part{"validity", "excursion", "no steps while aside of the course and soon back on it", "own",
+         [](Recipe& r) { r.validity = Validity::kExcursion; }},
+
     Part{"stride", "three_term", "constant, swing and cadence", "own",
          [](Recipe& r) { r.stride = Stride::kThreeTerm; }},
     Part{"stride", "weinberg", "K (a_max - a_min)^(1/4)", "[Weinberg2002]",
