@@ -41,14 +41,13 @@ SequenceMatcher::Options wide_enough(SequenceMatcher::Options options, double ra
 /// Half a second at a time, the compass averaged over it.
 class EvenWalk {
  public:
-  explicit EvenWalk(double speed_mps) : speed_mps_(speed_mps) {}
+  EvenWalk(double speed_mps, core::DeviceTime begin) : speed_mps_(speed_mps), begin_(begin) {}
 
   std::optional<observation::MotionDelta> add(const FieldWalk::Reading& reading) {
-    if (!begin_) begin_ = reading.time;
     headings_rad_.push_back(reading.heading_rad);
-    if (reading.time - *begin_ < kMotion) return std::nullopt;
+    if (reading.time - begin_ < kMotion) return std::nullopt;
     observation::MotionDelta motion;
-    motion.begin = *begin_;
+    motion.begin = begin_;
     motion.end = reading.time;
     motion.length_m = speed_mps_ * core::to_seconds(motion.end - motion.begin);
     const auto mean = core::circular_mean(headings_rad_);
@@ -60,7 +59,7 @@ class EvenWalk {
 
  private:
   double speed_mps_;
-  std::optional<core::DeviceTime> begin_;
+  core::DeviceTime begin_;
   std::vector<double> headings_rad_;
 };
 
@@ -102,7 +101,7 @@ class Replay {
 
   void add(const FieldWalk& walk) {
     SequenceMatcher matcher(options_.matcher);
-    EvenWalk even(options_.speed_mps);
+    EvenWalk even(options_.speed_mps, walk.readings.front().time);
     result_.errors_m.emplace_back();
     chain_m_.reset();
     core::DeviceTime next =
