@@ -69,22 +69,6 @@ sample::WifiScan foreign_scan(double time_s, std::size_t count) {
   return scan;
 }
 
-TEST(Model, NeedsARadioMap) {
-  const auto site = std::make_shared<const site::Site>(testing::tiny_floors());
-  const auto model = Model::create(site, testing::tiny_options());
-  ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().code, core::ErrorCode::kMapMissing);
-  EXPECT_EQ(model.error().place, "tiny");
-}
-
-TEST(Model, RejectsOptionsThatMakeNoSense) {
-  Options options = testing::tiny_options();
-  options.fused.planar.radio_bias_tau_s = 0.0;
-  const auto model = Model::create(testing::tiny_site(), options);
-  ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().code, core::ErrorCode::kInvalidOptions);
-}
-
 TEST(Session, RefusesDeadReckoningWithoutAStart) {
   const auto session = Session::create(tiny_model(), *find_method("pdr"), {});
   ASSERT_FALSE(session);

@@ -77,7 +77,7 @@ inline site::MagneticMapStorage tiny_field() {
 
 enum class Field : std::uint8_t { kUnknown, kSurveyed };
 
-inline std::shared_ptr<const site::Site> tiny_site(Field field = Field::kUnknown) {
+inline site::SiteParts tiny_parts(Field field) {
   site::SiteParts parts = tiny_floors();
   if (field == Field::kSurveyed) parts.magnetic_map = tiny_field();
   site::RadioMapBuilder builder;
@@ -93,6 +93,20 @@ inline std::shared_ptr<const site::Site> tiny_site(Field field = Field::kUnknown
     }
   }
   parts.radio_map = builder.build();
+  return parts;
+}
+
+inline std::shared_ptr<const site::Site> tiny_site(Field field = Field::kUnknown) {
+  return std::make_shared<const site::Site>(tiny_parts(field));
+}
+
+/// The upper floor lies in the site turned by +90 degrees and then moved by (10, 0); headings on
+/// the site are 0.3 rad more than the phone's.
+inline std::shared_ptr<const site::Site> turned_site() {
+  site::SiteParts parts = tiny_parts(Field::kSurveyed);
+  parts.floors[1].site_from_floor.linear << 0.0, -1.0, 1.0, 0.0;
+  parts.floors[1].site_from_floor.translation_m = {10.0, 0.0};
+  parts.floors[1].heading_offset_rad = 0.3;
   return std::make_shared<const site::Site>(std::move(parts));
 }
 
@@ -111,10 +125,15 @@ inline Options tiny_options() {
   return options;
 }
 
-inline std::shared_ptr<const Model> tiny_model(Field field = Field::kUnknown) {
-  auto model = Model::create(tiny_site(field), tiny_options());
+inline std::shared_ptr<const Model> model_of(std::shared_ptr<const site::Site> site,
+                                             const Options& options = tiny_options()) {
+  auto model = Model::create(std::move(site), options);
   if (!model) throw std::logic_error(core::to_string(model.error()));
   return *model;
+}
+
+inline std::shared_ptr<const Model> tiny_model(Field field = Field::kUnknown) {
+  return model_of(tiny_site(field));
 }
 
 inline sample::WifiScan scan_at(double time_s, core::FloorId floor,
