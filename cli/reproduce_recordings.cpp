@@ -11,7 +11,9 @@
 #include "datasets/ilc_dataset.hpp"
 #include "datasets/ipin_dataset.hpp"
 #include "datasets/log_files.hpp"
+#include "datasets/oxford_dataset.hpp"
 #include "datasets/test_recording.hpp"
+#include "datasets/uji_mag_dataset.hpp"
 #include "progress_bar.hpp"
 #include "run_evaluation.hpp"
 #include "waylode/eval/metrics.hpp"
@@ -70,6 +72,47 @@ core::Result<Outcome> step_lengths(const fs::path& folder, const core::LogSink& 
       "{} of {} recordings give a usable walk (at least 8 m, 8 steps, 0.35 to 1.0 m a step).",
       walks.size(), paths->size()));
   return outcome;
+}
+
+core::Result<Outcome> step_counting(const fs::path& archive, const core::LogSink& log) {
+  const auto dataset = load_oxford_dataset(archive);
+  if (!dataset) return tl::unexpected(dataset.error());
+  for (const std::string& note : dataset->notes) {
+    if (log) log(core::LogLevel::kInfo, "reproduce", note);
+  }
+  return experiment::step_counting_outcome(dataset->recordings);
+}
+
+core::Result<Outcome> magnetic_matching(const fs::path& archive) {
+  const auto dataset = load_uji_mag_dataset(archive);
+  if (!dataset) return tl::unexpected(dataset.error());
+  return experiment::magnetic_matching_outcome(dataset->training, dataset->tests);
+}
+
+/// The one archive of a data set's folder; the folder itself when it is unpacked there.
+fs::path archive_in(const fs::path& folder) {
+  const auto entries = list_folder(folder);
+  if (!entries) return folder;
+  for (const fs::path& file : entries->files) {
+    const std::string name = file.filename().string();
+    if (name.find(".tar") != std::string::npos || name.ends_with(".zip")) return file;
+  }
+  return folder;
+}
+
+/// Runs a study whose data may not be there.
+template <typename Study>
+core::Result<void> add_study(const std::string& paper, const std::string& title,
+                             const fs::path& folder, const Study& study,
+                             std::vector<Outcome>& outcomes) {
+  if (!is_there(folder)) {
+    outcomes.push_back(absent(paper, title, folder));
+    return {};
+  }
+  auto outcome = study();
+  if (!outcome) return tl::unexpected(outcome.error());
+  outcomes.push_back(*std::move(outcome));
+  return {};
 }
 
 /// What a paper compares: its single methods and its fusion.
@@ -179,25 +222,19 @@ core::Result<void> add_fusion(const std::string& paper, const fs::path& data,
                               std::vector<Outcome>& outcomes) {
   const std::string id = paper == "wu2019" ? "W-X4" : paper == "zhou2016" ? "Z-X4" : "R-X4";
   const DatasetContext context{options, {}, log};
-  if (!is_there(data / "ilc")) {
-    outcomes.push_back(absent(paper, "Fusion on real walks, ILC", data / "ilc"));
-  } else {
-    const auto dataset = load_ilc_dataset(data / "ilc", std::nullopt, context);
+  const auto on = [&](const core::Result<Dataset>& dataset,
+                      bool floor_known) -> core::Result<Outcome> {
     if (!dataset) return tl::unexpected(dataset.error());
-    auto outcome = compare_on(*dataset, paper, id, /*floor_known=*/true);
-    if (!outcome) return tl::unexpected(outcome.error());
-    outcomes.push_back(*std::move(outcome));
-  }
-  if (!is_there(data / "ipin2023")) {
-    outcomes.push_back(absent(paper, "Fusion on real walks, IPIN", data / "ipin2023"));
-    return {};
-  }
-  const auto dataset = load_ipin_dataset(data / "ipin2023", std::nullopt, context);
-  if (!dataset) return tl::unexpected(dataset.error());
-  auto outcome = compare_on(*dataset, paper, id, /*floor_known=*/false);
-  if (!outcome) return tl::unexpected(outcome.error());
-  outcomes.push_back(*std::move(outcome));
-  return {};
+    return compare_on(*dataset, paper, id, floor_known);
+  };
+  const auto mall = add_study(
+      paper, "Fusion on real walks, ILC", data / "ilc",
+      [&] { return on(load_ilc_dataset(data / "ilc", std::nullopt, context), true); }, outcomes);
+  if (!mall) return mall;
+  return add_study(
+      paper, "Fusion on real walks, IPIN", data / "ipin2023",
+      [&] { return on(load_ipin_dataset(data / "ipin2023", std::nullopt, context), false); },
+      outcomes);
 }
 
 }  // namespace
@@ -207,18 +244,24 @@ core::Result<std::vector<Outcome>> reproduce_on_recordings(const std::string& pa
                                                            const pipeline::Options& options,
                                                            const core::LogSink& log) {
   std::vector<Outcome> outcomes;
+  core::Result<void> added;
   if (paper == "zhao2019") {
-    if (!is_there(data / "ilc")) {
-      outcomes.push_back(absent(paper, "Step-length models on real walks", data / "ilc"));
-    } else {
-      auto outcome = step_lengths(data / "ilc", log);
-      if (!outcome) return tl::unexpected(outcome.error());
-      outcomes.push_back(*std::move(outcome));
-    }
+    added = add_study(
+        paper, "Step-length models on real walks", data / "ilc",
+        [&] { return step_lengths(data / "ilc", log); }, outcomes);
+  } else if (paper == "zhou2016") {
+    added = add_study(
+        paper, "Magnetic matching on real walks", data / "uji-mag",
+        [&] { return magnetic_matching(archive_in(data / "uji-mag")); }, outcomes);
+  } else if (paper == "zhong2017") {
+    added = add_study(
+        paper, "Step counting on real walks", data / "oxford-steps",
+        [&] { return step_counting(archive_in(data / "oxford-steps"), log); }, outcomes);
   }
+  if (!added) return tl::unexpected(added.error());
   if (paper != "zhong2017") {
-    if (auto added = add_fusion(paper, data, options, log, outcomes); !added) {
-      return tl::unexpected(added.error());
+    if (auto fused = add_fusion(paper, data, options, log, outcomes); !fused) {
+      return tl::unexpected(fused.error());
     }
   }
   return outcomes;

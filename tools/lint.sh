@@ -41,6 +41,7 @@ $script_files")"
 report "header without #pragma once" "$(files '*.hpp' | xargs -r grep -L '#pragma once')"
 run tools/check_layers.py
 run tools/check_docs_paths.py
+run tools/check_methods_table.py
 if command -v shellcheck >/dev/null; then
   run xargs -r shellcheck < <(files '*.sh' .ci/run)
 fi

@@ -3,6 +3,7 @@
 #include "waylode/experiment/magnetic_matching.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "waylode/core/angle.hpp"
@@ -200,6 +201,55 @@ MagneticMatching match_walks(const std::vector<FieldWalk>& walks, const site::Ma
     if (!walk.readings.empty()) replay.add(walk);
   }
   return std::move(replay).result();
+}
+
+core::Result<Outcome> magnetic_matching_outcome(const std::vector<FieldWalk>& training,
+                                                const std::vector<FieldWalk>& tests) {
+  if (training.empty() || tests.empty()) {
+    return core::fail(core::ErrorCode::kLogLacksRecords,
+                      "training walks and tests are needed to match the field",
+                      "magnetic matching");
+  }
+  const site::MagneticMapStorage map = map_of(training, {});
+  Outcome outcome;
+  outcome.paper = "zhou2016";
+  outcome.title = "Magnetic matching on real walks";
+  outcome.data = std::to_string(training.size()) + " training and " + std::to_string(tests.size()) +
+                 " test walks along corridors, the official split; no steps, one constant speed";
+  struct Window {
+    const char* label;
+    double window_s;
+    bool literal;
+  };
+  constexpr std::array<Window, 4> kWindows = {{{"2 s, literal", 2.0, true},
+                                               {"6 s, literal", 6.0, true},
+                                               {"6 s", 6.0, false},
+                                               {"10 s", 10.0, false}}};
+  for (const Window& window : kWindows) {
+    MagneticMatchingOptions options;
+    options.speed_mps = mean_speed_mps(training);
+    options.matcher.window_s = window.window_s;
+    if (window.literal) options.matcher.bias_sigma_ut = options.matcher.largest_turn_rad = 0.0;
+    const MagneticMatching matching = match_walks(tests, map.view(), options);
+    Figure mean;
+    mean.id = std::string("Z-X2");
+    mean.what = std::string("mean error, window of ") + window.label;
+    mean.unit = std::string("m");
+    mean.paper = "1.64";
+    mean.ours = bootstrap(matching.errors_m, mean_of);
+    outcome.figures.push_back(mean);
+    Figure within = mean;
+    within.what = std::string("within 3 m, window of ") + window.label;
+    within.unit = std::string("%");
+    within.paper = "91";
+    within.ours = bootstrap(matching.errors_m, [](std::span<const double> values) {
+      return percent_within(values, 3.0);
+    });
+    outcome.figures.push_back(within);
+  }
+  outcome.notes.emplace_back(
+      "The start is known to 2 m per axis; matches that say nothing are not counted.");
+  return outcome;
 }
 
 }  // namespace waylode::experiment

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "waylode/core/geometry.hpp"
+#include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
 #include "waylode/experiment/bootstrap.hpp"
+#include "waylode/experiment/outcome.hpp"
 #include "waylode/magnetic/field_grid.hpp"
 #include "waylode/magnetic/sequence_matcher.hpp"
 #include "waylode/site/magnetic_map.hpp"
@@ -74,5 +76,10 @@ site::MagneticMapStorage map_of(const std::vector<FieldWalk>& walks,
 /// speed. `options` must be valid.
 MagneticMatching match_walks(const std::vector<FieldWalk>& walks, const site::MagneticMap& map,
                              const MagneticMatchingOptions& options);
+
+/// The paper's question on real walks: a map of the training walks, matched along the tests with
+/// windows of 2 s (literal), 6 s and 10 s around a start known to 2 m per axis.
+core::Result<Outcome> magnetic_matching_outcome(const std::vector<FieldWalk>& training,
+                                                const std::vector<FieldWalk>& tests);
 
 }  // namespace waylode::experiment

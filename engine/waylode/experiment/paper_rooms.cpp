@@ -233,6 +233,7 @@ core::Result<PaperWalk> zhong_walk(ZhongKind kind, std::uint64_t seed) {
   plan.name = "zhong";
   plan.outline_m = box(24.0, 19.0);
   plan.route_m = {{2.0, 2.0}, {22.0, 2.0}, {22.0, 17.0}, {7.0, 17.0}};
+  if (kind == ZhongKind::kTurnsBack) std::ranges::reverse(plan.route_m);
   if (kind == ZhongKind::kStraight) {
     plan.outline_m = box(54.0, 4.0);
     plan.route_m = {{2.0, 2.0}, {52.0, 2.0}};

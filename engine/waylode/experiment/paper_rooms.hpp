@@ -79,9 +79,10 @@ struct PaperWalk {
 };
 enum class ZhongKind : std::uint8_t {
   kStraight,
-  kTurns,  ///< Two right-angled turns.
-  kPhoto,  ///< The same with 3 stops to take photos.
-  kCrowd,  ///< The same with 4 dodges.
+  kTurns,      ///< Two right-angled turns.
+  kTurnsBack,  ///< The same way walked from its end to its start.
+  kPhoto,      ///< The same with 3 stops to take photos.
+  kCrowd,      ///< The same with 4 dodges.
 };
 core::Result<PaperWalk> zhong_walk(ZhongKind kind, std::uint64_t seed);
 

@@ -5,8 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
+#include "waylode/experiment/bootstrap.hpp"
+#include "waylode/pdr/cadence_step_detector.hpp"
 #include "waylode/pdr/gravity_filter.hpp"
+#include "waylode/pdr/step_detector.hpp"
 
 namespace waylode::experiment {
 namespace {
@@ -65,6 +70,45 @@ StepCounting count_steps(const std::vector<StepRecording>& recordings,
   }
   result.placements = by_placement(result.recordings);
   return result;
+}
+
+core::Result<Outcome> step_counting_outcome(const std::vector<StepRecording>& recordings) {
+  if (recordings.empty()) {
+    return core::fail(core::ErrorCode::kLogLacksRecords, "no recording to count steps of",
+                      "step counting");
+  }
+  const StepCounting cadence = count_steps(recordings, [] {
+    return std::make_unique<pdr::CadenceStepDetector>(pdr::CadenceStepDetector::Options());
+  });
+  const StepCounting threshold = count_steps(
+      recordings, [] { return std::make_unique<pdr::StepDetector>(pdr::StepDetector::Options()); });
+  Outcome outcome;
+  outcome.paper = "zhong2017";
+  outcome.title = "Step counting on real walks";
+  outcome.data = std::to_string(cadence.recordings.size()) +
+                 " recordings with foot switches as truth, counted causally";
+  const auto add = [&](const std::string& what, const StepCounting& counting,
+                       const std::optional<std::string>& placement) {
+    std::vector<Unit> units;
+    for (const CountedRecording& counted : counting.recordings) {
+      if (placement && counted.placement != *placement) continue;
+      units.push_back({100.0 * std::abs(counted.error_ratio)});
+    }
+    Figure figure;
+    figure.id = std::string("R-2.2");
+    figure.what = what;
+    figure.unit = std::string("%");
+    figure.ours = bootstrap(units, mean_of);
+    outcome.figures.push_back(std::move(figure));
+  };
+  add("mean absolute count error, cadence", cadence, std::nullopt);
+  outcome.figures.back().bar = Bar{Bar::Sense::kAtMost, 2.0};
+  add("mean absolute count error, threshold", threshold, std::nullopt);
+  for (const PlacementCount& placement : cadence.placements) {
+    add("cadence, " + placement.placement, cadence, placement.placement);
+    add("threshold, " + placement.placement, threshold, placement.placement);
+  }
+  return outcome;
 }
 
 }  // namespace waylode::experiment

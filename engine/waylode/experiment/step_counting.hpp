@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "waylode/core/result.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/experiment/outcome.hpp"
 #include "waylode/pdr/step_source.hpp"
 #include "waylode/sample/sample.hpp"
 
@@ -52,5 +54,10 @@ struct StepCounting {
 /// without a true step have no relative error and are left out; no figure is made of none (0).
 StepCounting count_steps(const std::vector<StepRecording>& recordings,
                          const StepSourceFactory& make_detector);
+
+/// Counted by the detector for any placement, and by the default one for comparison, placement by
+/// placement; the bar is the first one's mean over all recordings. kLogLacksRecords without
+/// recordings.
+core::Result<Outcome> step_counting_outcome(const std::vector<StepRecording>& recordings);
 
 }  // namespace waylode::experiment

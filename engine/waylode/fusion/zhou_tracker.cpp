@@ -32,6 +32,9 @@ PolarVelocity sensed_velocity(const observation::MotionDelta& motion) {
 
 StepPositionFilter::Options ZhouTracker::Options::filter_defaults() {
   StepPositionFilter::Options options;
+  // A compass that starts beside steel is off by more than the hold of the phone.
+  options.heading_offset_sigma_rad = 0.3;
+  options.heading_offset_walk_rad_per_sqrt_step = 0.03;
   options.position_walk_m_per_sqrt_s = 0.5;
   options.radio_bias_sigma_m = 0.0;
   options.radio_sigma_scale = 1.0;

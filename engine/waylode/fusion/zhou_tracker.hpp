@@ -31,8 +31,8 @@ class ZhouTracker {
     double start_within_s = 4.0;  ///< From the first of them; >= 0.
     bool robust_filter = false;
 
-    double magnetic_sigma_scale = 1.5;    ///< > 0; successive matches share most of their window.
-    double magnetic_floor_sigma_m = 0.5;  ///< What a magnetic sigma does not know of; >= 0.
+    double magnetic_sigma_scale = 1.0;    ///< > 0; successive matches share most of their window.
+    double magnetic_floor_sigma_m = 0.3;  ///< What a magnetic sigma does not know of; >= 0.
     /// Chi-square distance from Wi-Fi and steps beyond which a magnetic position is left; > 0.
     double magnetic_gate = 9.21;
 

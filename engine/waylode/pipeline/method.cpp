@@ -39,7 +39,7 @@ Recipe zhou2016() {
   recipe.heading = pdr::DeadReckoning::HeadingSource::kCompass;
   recipe.radio = RadioPart::kWindowKnn;
   recipe.magnetic = MagneticPart::kSequence;
-  recipe.fusion = FusionPart::kIntervals;
+  recipe.fusion = FusionPart::kRawTerms;
   return recipe;
 }
 
@@ -85,7 +85,7 @@ std::vector<Method> make_methods() {
       {"zhou2016",
        zhou2016(),
        {},
-       "filtered KNN, magnetic matching, interval weights, KF",
+       "filtered KNN, magnetic matching, KF of all terms",
        "[Zhou2016]",
        "radio and magnetic map, Wi-Fi, motion sensors"},
       {"zhao2019",

@@ -28,7 +28,7 @@ namespace waylode::pipeline {
 struct Options {
   /// When the field is matched, and how.
   struct FieldMatch {
-    double interval_s = 1.0;  ///< Between two matches; each costs a fraction of a millisecond.
+    double interval_s = 0.5;  ///< Between two matches; each costs a fraction of a millisecond.
     magnetic::FieldGrid::Options grid;
     magnetic::SequenceMatcher::Options sequence;
 

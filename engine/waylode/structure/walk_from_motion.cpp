@@ -82,19 +82,61 @@ std::vector<Piece> straights_of(const std::vector<Piece>& pieces,
   return straights.empty() ? pieces : straights;
 }
 
-/// Where one segment ends and the next begins: before step `step`.
+/// Where one segment ends and the next begins: before step `step`, at a place of the walk's frame.
 struct Break {
   std::size_t step = 0;
+  core::Vector2 place_m = core::Vector2::Zero();
   std::string landmark;
 };
 
-/// The walk's ends and the middles of its turns.
-std::vector<Break> breaks_of(const std::vector<Piece>& straights, std::size_t step_count) {
-  std::vector<Break> breaks{{0, ""}};
-  for (std::size_t i = 1; i < straights.size(); ++i) {
-    breaks.push_back({(straights[i - 1].last + straights[i].first + 1) / 2, ""});
+core::Vector2 unit(double direction_rad) {
+  return {std::cos(direction_rad), std::sin(direction_rad)};
+}
+
+/// Before each step, and at the end; the walk begins in the origin.
+std::vector<core::Vector2> places_of(const std::vector<MotionDelta>& steps) {
+  std::vector<core::Vector2> places_m{core::Vector2::Zero()};
+  for (const MotionDelta& step : steps) {
+    places_m.push_back(places_m.back() + step.length_m * unit(step.heading_rad));
   }
-  breaks.push_back({step_count, ""});
+  return places_m;
+}
+
+/// A straight as a line: through the middle of its places, along its direction.
+struct Line {
+  core::Vector2 middle_m;
+  core::Vector2 along;
+};
+
+Line line_of(const Piece& piece, const std::vector<core::Vector2>& places_m) {
+  core::Vector2 sum_m = core::Vector2::Zero();
+  for (std::size_t i = piece.first; i <= piece.last; ++i) sum_m += places_m[i];
+  return {sum_m / static_cast<double>(piece.size() + 1), unit(piece.direction_rad)};
+}
+
+/// Where the corridors meet that a corner was cut between; nullopt where they hardly turn.
+std::optional<core::Vector2> crossing(const Line& before, const Line& after) {
+  const auto cross = [](const core::Vector2& a, const core::Vector2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const double turn = cross(before.along, after.along);
+  constexpr double kLeastTurn = 0.34;  // Sine of 20 degrees.
+  if (std::abs(turn) < kLeastTurn) return std::nullopt;
+  const double way_m = cross(after.middle_m - before.middle_m, after.along) / turn;
+  return before.middle_m + way_m * before.along;
+}
+
+/// The walk's ends and its corners.
+std::vector<Break> breaks_of(const std::vector<Piece>& straights,
+                             const std::vector<core::Vector2>& places_m) {
+  std::vector<Break> breaks{{0, places_m.front(), ""}};
+  for (std::size_t i = 1; i < straights.size(); ++i) {
+    const std::size_t middle = (straights[i - 1].last + straights[i].first + 1) / 2;
+    const auto corner_m =
+        crossing(line_of(straights[i - 1], places_m), line_of(straights[i], places_m));
+    breaks.push_back({middle, corner_m.value_or(places_m[middle]), ""});
+  }
+  breaks.push_back({places_m.size() - 1, places_m.back(), ""});
   return breaks;
 }
 
@@ -107,7 +149,8 @@ std::vector<double> distances_m(const std::vector<MotionDelta>& steps) {
 
 /// Names the nearest break in reach, or breaks the walk where the mark was set.
 Result<void> put(const LandmarkMark& mark, const std::vector<MotionDelta>& steps,
-                 const std::vector<double>& walked_m, double reach_m, std::vector<Break>& breaks) {
+                 const std::vector<double>& walked_m, const std::vector<core::Vector2>& places_m,
+                 double reach_m, std::vector<Break>& breaks) {
   const auto next =
       std::ranges::find_if(steps, [&](const MotionDelta& step) { return step.end > mark.time; });
   const auto step = static_cast<std::size_t>(next - steps.begin());
@@ -127,7 +170,7 @@ Result<void> put(const LandmarkMark& mark, const std::vector<MotionDelta>& steps
   }
   const auto behind =
       std::ranges::find_if(breaks, [&](const Break& each) { return each.step > step; });
-  breaks.insert(behind, {step, mark.name});
+  breaks.insert(behind, {step, places_m[step], mark.name});
   return {};
 }
 
@@ -136,7 +179,7 @@ bool in_straight(const std::vector<Piece>& straights, std::size_t step) {
       straights, [&](const Piece& piece) { return piece.first <= step && step < piece.last; });
 }
 
-/// Direction by the steps outside turns, length by what each step advances along it.
+/// Direction by the steps outside turns, length from break to break along it.
 WalkedSegment segment_of(const std::vector<MotionDelta>& steps, const std::vector<Piece>& straights,
                          const Break& begin, const Break& end, const SegmentationOptions& options) {
   std::vector<std::size_t> straight;
@@ -156,12 +199,9 @@ WalkedSegment segment_of(const std::vector<MotionDelta>& steps, const std::vecto
   segment.direction_rad = mean ? mean->mean_rad : headings_rad.front();
   double length_variance_m2 = 0.0;
   for (std::size_t i = begin.step; i < end.step; ++i) {
-    const bool is_straight = all_turning || in_straight(straights, i);
-    const double along = is_straight ? 1.0 : std::cos(steps[i].heading_rad - segment.direction_rad);
-    segment.length_m += along * steps[i].length_m;
     length_variance_m2 += steps[i].length_sigma_m * steps[i].length_sigma_m;
   }
-  segment.length_m = std::max(0.0, segment.length_m);
+  segment.length_m = std::max(0.0, (end.place_m - begin.place_m).dot(unit(segment.direction_rad)));
   constexpr double kLeastSigma_m = 0.01;
   segment.length_sigma_m = std::max(
       kLeastSigma_m,
@@ -197,11 +237,12 @@ Result<Walk> walk_from_motion(std::span<const MotionDelta> motion,
   Walk walk;
   if (steps->empty()) return walk;
   const auto straights = straights_of(pieces_of(*steps, options.largest_deviation_rad), options);
-  std::vector<Break> breaks = breaks_of(straights, steps->size());
+  const std::vector<core::Vector2> places_m = places_of(*steps);
+  std::vector<Break> breaks = breaks_of(straights, places_m);
   const std::vector<double> walked_m = distances_m(*steps);
   for (const LandmarkMark& mark : marks) {
     if (mark.name.empty()) continue;
-    if (auto done = put(mark, *steps, walked_m, options.mark_reach_m, breaks); !done) {
+    if (auto done = put(mark, *steps, walked_m, places_m, options.mark_reach_m, breaks); !done) {
       return tl::unexpected(done.error());
     }
   }

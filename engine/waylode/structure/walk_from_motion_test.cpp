@@ -64,7 +64,7 @@ TEST(WalkFromMotion, AveragesDirectionsAcrossHalfATurn) {
   EXPECT_NEAR(walk.segments[0].direction_rad, radians_from_degrees(179), 1e-9);
 }
 
-TEST(WalkFromMotion, CountsStepsOfATurnByWhatTheyAdvance) {
+TEST(WalkFromMotion, LetsCorridorsMeetWhereACornerWasCut) {
   std::vector<MotionDelta> motion;
   walk_on(motion, 10, 0);
   walk_on(motion, 1, 30);
@@ -72,7 +72,9 @@ TEST(WalkFromMotion, CountsStepsOfATurnByWhatTheyAdvance) {
   walk_on(motion, 8, 90);
   const Walk walk = walk_of(motion);
   ASSERT_EQ(walk.segments.size(), 2U);
-  const double of_turn_m = 0.7 * std::cos(radians_from_degrees(30));
+  // Both steps of the turn advance along either corridor.
+  const double of_turn_m =
+      0.7 * (std::cos(radians_from_degrees(30)) + std::cos(radians_from_degrees(60)));
   EXPECT_NEAR(walk.segments[0].length_m, 7.0 + of_turn_m, 1e-9);
   EXPECT_NEAR(walk.segments[1].length_m, 5.6 + of_turn_m, 1e-9);
   EXPECT_NEAR(walk.segments[1].direction_rad, radians_from_degrees(90), 1e-9);
