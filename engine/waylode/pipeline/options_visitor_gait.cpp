@@ -28,6 +28,8 @@ void visit_cadence(pdr::CadenceStepDetector::Options& cadence, const Visit& visi
               "Of the steps that are counted back when a walk begins.")
       .number("min_prominence_mps2", cadence.min_prominence_mps2, kAboveZero, 100.0,
               "Of a peak above the valley before it.")
+      .number("clear_prominence_mps2", cadence.clear_prominence_mps2, kAboveZero, 100.0,
+              "Even peaks this prominent begin a walk before the rhythm is clear.")
       .number("relative_prominence_ratio", cadence.relative_prominence_ratio, 0.0, 1.0,
               "Of the recent peaks' prominence, what a new one must reach.")
       .number("pause_s", cadence.pause_s, kAboveZero, 60.0, "A longer pause starts a new walk.");

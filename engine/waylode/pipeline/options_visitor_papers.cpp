@@ -121,6 +121,24 @@ void visit_kernel(learn::Kernel::Options& kernel, const Visit& visit) {
               "Needed from some five transmitters on, where the spline drowns the others.");
 }
 
+void visit_relevance(learn::RelevanceVectorRegression::Options& relevance, const Visit& visit) {
+  learn::SparseBayesFit::Options& fit = relevance.fit;
+  Table("regression.relevance", visit)
+      .number("max_iterations", fit.max_iterations, 1, 1000000, "Of the training.")
+      .number("tolerance", fit.tolerance, kAboveZero, 1.0,
+              "Training ends when no logarithm of a precision moves by more.")
+      .number("prune_above", fit.prune_above, 1.000001, 1e12,
+              "Vectors whose weight's precision exceeds this are left out.")
+      .number("start_precision", fit.start_precision, 1e-9, 1e3, "All precisions at the start.")
+      .number("start_noise_ratio", fit.start_noise_ratio, kAboveZero, 10.0,
+              "Noise variance at the start, as a share of the targets' mean square.")
+      .number("min_noise_sigma", fit.min_noise_sigma, 1e-9, 1e9,
+              "Metres of noise that are believed at the least.")
+      .choice("bias", switch_of(relevance.bias), "A constant with a precision of its own.")
+      .choice("centre_targets", switch_of(relevance.centre_targets),
+              "Take the targets' mean off first.");
+}
+
 void visit_regression(Options& options, const Visit& visit) {
   radio::RegressionPositioner::Options& regression = options.regression;
   Table("regression", visit)
@@ -143,8 +161,16 @@ void visit_regression(Options& options, const Visit& visit) {
       .number("support_cost", regression.support.cost, kAboveZero, 1e6,
               "Support vectors: what a unit of error beyond epsilon costs.")
       .number("support_epsilon", regression.support.epsilon, 0.0, kHuge,
-              "Support vectors: errors below cost nothing.");
+              "Support vectors: errors below cost nothing.")
+      .number("support_tolerance", regression.support.tolerance, 1e-9, 1.0,
+              "Support vectors: how well the conditions of the optimum must hold.");
   visit_kernel(regression.relevance.kernel, visit);
+  visit_relevance(regression.relevance, visit);
+  Table("regression.scaler", visit)
+      .number("clip_low", regression.scaler.clip_low, -10.0, 0.0,
+              "Inputs are cut off below; 0 is the weakest surveyed.")
+      .number("clip_high", regression.scaler.clip_high, 1.0, 10.0,
+              "And above; 1 is the strongest surveyed.");
 }
 
 void visit_field(Options& options, const Visit& visit) {

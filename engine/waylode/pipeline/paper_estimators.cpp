@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "waylode/pipeline/paper_estimators.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "waylode/core/covariance.hpp"
 #include "waylode/fusion/decision_flow.hpp"
 #include "waylode/fusion/feedback_tracker.hpp"
 #include "waylode/fusion/path_memory.hpp"
@@ -16,6 +18,17 @@ namespace {
 
 using fusion::PlanarEstimate;
 using fusion::PlanarMeasurement;
+
+bool is_sound(const observation::MotionDelta& motion) {
+  return motion.begin <= motion.end && std::isfinite(motion.length_m) &&
+         std::isfinite(motion.heading_rad) && std::isfinite(motion.length_sigma_m) &&
+         std::isfinite(motion.heading_sigma_rad) && motion.length_m >= 0.0 &&
+         motion.length_sigma_m >= 0.0 && motion.heading_sigma_rad >= 0.0;
+}
+
+bool is_sound(const core::Vector2& position_m, const core::Matrix2& covariance_m2) {
+  return position_m.allFinite() && core::is_valid_covariance(covariance_m2);
+}
 
 class DecisionMethod final : public PlaneEstimator {
  public:
@@ -48,7 +61,7 @@ class MagneticMethod final : public PlaneEstimator {
  private:
   void start(const PlanarEstimate& place) override { place_ = place; }
   void step(const observation::MotionDelta& motion) override {
-    if (!path_.is_in_order(motion.end)) return;
+    if (!is_sound(motion) || !path_.is_in_order(motion.end)) return;
     path_.add(motion);
     if (!place_) return;
     place_->position_m += fusion::displacement_m(motion);
@@ -59,9 +72,11 @@ class MagneticMethod final : public PlaneEstimator {
     place_->time = motion.end;
   }
   void hear(const PlanarMeasurement& whole_map, const Again&) override {
-    if (!place_) place_ = {whole_map.delivered, whole_map.position_m, whole_map.covariance_m2};
+    if (place_ || !is_sound(whole_map.position_m, whole_map.covariance_m2)) return;
+    place_ = {whole_map.delivered, whole_map.position_m, whole_map.covariance_m2};
   }
   void feel(const PlanarEstimate& place) override {
+    if (!is_sound(place.position_m, place.covariance_m2)) return;
     place_ = place;
     place_->position_m -= path_.offset_m(place.time);
   }
@@ -131,6 +146,7 @@ class FeedbackMethod final : public PlaneEstimator {
   }
 
   void start_anywhere(const PlanarMeasurement& whole_map, const Again& again) {
+    if (!is_sound(whole_map.position_m, whole_map.covariance_m2)) return;
     std::vector<PlanarEstimate> places;
     if (options_.hypotheses > 1) {
       constexpr double kApart_m = 3.0;

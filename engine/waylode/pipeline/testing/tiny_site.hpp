@@ -12,10 +12,11 @@
 
 #include "waylode/core/rng.hpp"
 #include "waylode/fusion/testing/fused_fixture.hpp"
+#include "waylode/magnetic/features.hpp"
 #include "waylode/pipeline/session.hpp"
 
-/// Two floors of 40 m x 10 m with five access points each and a fingerprint on every second metre:
-/// small enough to know every answer.
+/// Two floors of 40 m x 10 m with five access points each and a fingerprint on every second metre,
+/// with a magnetic map or without: small enough to know every answer.
 namespace waylode::pipeline::testing {
 
 using fusion::testing::at_s;
@@ -51,8 +52,34 @@ inline site::SiteParts tiny_floors() {
   return parts;
 }
 
-inline std::shared_ptr<const site::Site> tiny_site() {
+/// Level field of a place: bumps of a few metres, another pattern on each floor.
+inline magnetic::LevelField field_at(core::FloorId floor, const core::Vector2& position_m) {
+  const double shift = 1.3 * floor.index;
+  return {
+      25.0 + 6.0 * std::sin(0.9 * position_m.x() + shift) + 3.0 * std::sin(1.7 * position_m.y()),
+      -40.0 + 6.0 * std::cos(1.3 * position_m.x() - shift) +
+          4.0 * std::cos(1.1 * position_m.y() + 0.7 * position_m.x())};
+}
+
+inline site::MagneticMapStorage tiny_field() {
+  site::MagneticMapBuilder builder{site::MagneticMapBuilder::Options()};
+  for (std::uint16_t floor = 0; floor < 2; ++floor) {
+    for (int column = 0; column < 80; ++column) {
+      for (int row = 0; row < 20; ++row) {
+        const core::Vector2 place_m(0.25 + 0.5 * column, 0.25 + 0.5 * row);
+        const magnetic::LevelField field = field_at({floor}, place_m);
+        builder.add({floor}, place_m, field.horizontal_ut, field.vertical_ut);
+      }
+    }
+  }
+  return builder.build();
+}
+
+enum class Field : std::uint8_t { kUnknown, kSurveyed };
+
+inline site::SiteParts tiny_parts(Field field) {
   site::SiteParts parts = tiny_floors();
+  if (field == Field::kSurveyed) parts.magnetic_map = tiny_field();
   site::RadioMapBuilder builder;
   for (std::uint16_t floor = 0; floor < 2; ++floor) {
     for (int x_m = 0; x_m <= 40; x_m += 2) {
@@ -66,6 +93,20 @@ inline std::shared_ptr<const site::Site> tiny_site() {
     }
   }
   parts.radio_map = builder.build();
+  return parts;
+}
+
+inline std::shared_ptr<const site::Site> tiny_site(Field field = Field::kUnknown) {
+  return std::make_shared<const site::Site>(tiny_parts(field));
+}
+
+/// The upper floor lies in the site turned by +90 degrees and then moved by (10, 0); headings on
+/// the site are 0.3 rad more than the phone's.
+inline std::shared_ptr<const site::Site> turned_site() {
+  site::SiteParts parts = tiny_parts(Field::kSurveyed);
+  parts.floors[1].site_from_floor.linear << 0.0, -1.0, 1.0, 0.0;
+  parts.floors[1].site_from_floor.translation_m = {10.0, 0.0};
+  parts.floors[1].heading_offset_rad = 0.3;
   return std::make_shared<const site::Site>(std::move(parts));
 }
 
@@ -84,10 +125,15 @@ inline Options tiny_options() {
   return options;
 }
 
-inline std::shared_ptr<const Model> tiny_model() {
-  auto model = Model::create(tiny_site(), tiny_options());
+inline std::shared_ptr<const Model> model_of(std::shared_ptr<const site::Site> site,
+                                             const Options& options = tiny_options()) {
+  auto model = Model::create(std::move(site), options);
   if (!model) throw std::logic_error(core::to_string(model.error()));
   return *model;
+}
+
+inline std::shared_ptr<const Model> tiny_model(Field field = Field::kUnknown) {
+  return model_of(tiny_site(field));
 }
 
 inline sample::WifiScan scan_at(double time_s, core::FloorId floor,
@@ -111,6 +157,8 @@ inline std::vector<sample::Sample> bouncing(double from_s, double to_s) {
     samples.emplace_back(sample::AccelerometerSample{at_s(time_s), {0.0, 0.0, 9.81 + bounce_mps2}});
     samples.emplace_back(sample::GyroscopeSample{at_s(time_s), core::Vector3::Zero()});
     samples.emplace_back(sample::RotationSample{at_s(time_s), north_east});
+    samples.emplace_back(sample::MagnetometerSample{
+        at_s(time_s), north_east.conjugate() * core::Vector3(0.0, 20.0, -44.0), 3});
   }
   return samples;
 }
