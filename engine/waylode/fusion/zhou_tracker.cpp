@@ -38,6 +38,8 @@ StepPositionFilter::Options ZhouTracker::Options::filter_defaults() {
   options.position_walk_m_per_sqrt_s = 0.5;
   options.radio_bias_sigma_m = 0.0;
   options.radio_sigma_scale = 1.0;
+  // Late scans, the bearer's body and drift err together: neighbours do not show it.
+  options.radio_floor_sigma_m = 2.5;
   options.gate = 4.0;
   options.lost_failures = 3;
   options.lost_window = 5;

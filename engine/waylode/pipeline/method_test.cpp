@@ -67,6 +67,7 @@ TEST(FindMethod, MixesPartsIntoANamedMethod) {
   EXPECT_EQ(mixed->name, "wu2019+stride=kim+fusion=pairs");
   Recipe expected = find_method("wu2019")->recipe;
   expected.stride = pdr::StrideModel::Model::kKim;
+  expected.learns_stride = false;
   expected.fusion = FusionPart::kPairs;
   EXPECT_EQ(mixed->recipe, expected);
 }

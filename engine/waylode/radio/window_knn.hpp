@@ -43,9 +43,8 @@ class WindowKnn final : public Positioner {
     std::size_t slack_hits = 1;  ///< For kMostHits.
     std::size_t neighbours = 4;  ///< k, 1 to 1000; fewer when fewer points are kept.
     Compared compared = Compared::kQuery;
-    /// Error covariance = base^2 I + spread_gain * scatter of the neighbours. Few transmitters, a late
-    /// scan and the bearer's body err together: the neighbours do not show it.
-    double base_sigma_m = 2.5;
+    /// Error covariance = base^2 I + spread_gain * scatter of the neighbours.
+    double base_sigma_m = 1.0;
     double spread_gain = 1.0;
 
     core::Result<void> validate() const;
