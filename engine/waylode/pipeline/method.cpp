@@ -27,6 +27,7 @@ Recipe wu2019() {
   Recipe recipe;
   recipe.steps = pdr::DeadReckoning::Detector::kAdaptivePeaks;
   recipe.stride = Stride::kImproved;
+  recipe.learns_stride = true;
   recipe.heading = pdr::DeadReckoning::HeadingSource::kCompass;
   recipe.radio = RadioPart::kRegionWknn;
   recipe.fusion = FusionPart::kUnscented;

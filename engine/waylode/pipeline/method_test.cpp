@@ -89,7 +89,7 @@ TEST(FindMethod, RefusesMixturesThatMakeNoSense) {
 TEST(Methods, OfThePapersAreTheRecipesOfTheSpecification) {
   const Recipe wu = find_method("wu2019")->recipe;
   EXPECT_EQ(part_name(wu, "steps"), "adaptive_peaks");
-  EXPECT_EQ(part_name(wu, "stride"), "improved");
+  EXPECT_EQ(part_name(wu, "stride"), "improved_learnt");
   EXPECT_EQ(part_name(wu, "radio"), "region_wknn");
   EXPECT_EQ(part_name(wu, "fusion"), "unscented");
   const Recipe zhou = find_method("zhou2016")->recipe;

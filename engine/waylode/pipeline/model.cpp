@@ -25,6 +25,7 @@ using PositionerPtr = std::shared_ptr<const radio::Positioner>;
 /// What is made on demand, under one lock: making something twice would cost more than waiting.
 struct Model::Shared {
   std::mutex mutex;
+  std::optional<radio::HotspotClassifier> hotspots;
   std::optional<radio::ReferenceMap> references;
   std::map<RadioPart, PositionerPtr> positioners;
   PositionerPtr near;
@@ -117,6 +118,12 @@ core::Result<PositionerPtr> Model::near_positioner() const {
     shared_->near = std::make_shared<radio::CircleKnn>(**map, options_.circle);
   }
   return shared_->near;
+}
+
+const radio::HotspotClassifier& Model::hotspots() const {
+  const std::scoped_lock lock(shared_->mutex);
+  if (!shared_->hotspots) shared_->hotspots.emplace();
+  return *shared_->hotspots;
 }
 
 core::Result<const radio::ReferenceMap*> Model::reference_map() const {

@@ -9,6 +9,7 @@
 #include "waylode/magnetic/field_grid.hpp"
 #include "waylode/pipeline/method.hpp"
 #include "waylode/pipeline/options.hpp"
+#include "waylode/radio/hotspot_classifier.hpp"
 #include "waylode/radio/matcher.hpp"
 #include "waylode/radio/positioner.hpp"
 #include "waylode/radio/reference_map.hpp"
@@ -39,6 +40,8 @@ class Model {
   core::Result<std::shared_ptr<const radio::Positioner>> positioner(RadioPart part) const;
   /// How scans are placed near a place.
   core::Result<std::shared_ptr<const radio::Positioner>> near_positioner() const;
+  /// Knows phones' hotspots by address and name; lives as long as the model.
+  const radio::HotspotClassifier& hotspots() const;
   /// The map gathered to reference points; lives as long as the model.
   core::Result<const radio::ReferenceMap*> reference_map() const;
   /// Per floor. kMapMissing without a magnetic map.

@@ -144,6 +144,8 @@ void visit_regression(Options& options, const Visit& visit) {
   Table("regression", visit)
       .number("max_transmitters", regression.max_transmitters, 1, 1000,
               "Per floor, those that vary the most.")
+      .number("rate_transmitters", regression.rate_transmitters, kAboveZero, kHuge,
+              "The kernels' rates are for so many transmitters; with more they shrink.")
       .number("max_points", regression.max_points, 5, 2000,
               "Per floor; training takes the cube of it.")
       .number("floor_neighbours", regression.floor_neighbours, 1, 1000,

@@ -16,6 +16,11 @@ using Validity = pdr::DeadReckoning::Validity;
 using Stride = pdr::StrideModel::Model;
 using Heading = pdr::DeadReckoning::HeadingSource;
 
+constexpr void choose_stride(Recipe& recipe, Stride model, bool learns) {
+  recipe.stride = model;
+  recipe.learns_stride = learns;
+}
+
 // The lambdas do not capture: they are plain functions.
 constexpr std::array kParts = {
     Part{"steps", "threshold", "peaks above a share of the walker's own", "own",
@@ -40,21 +45,23 @@ constexpr std::array kParts = {
          [](Recipe& r) { r.validity = Validity::kExcursion; }},
 
     Part{"stride", "three_term", "constant, swing and cadence", "own",
-         [](Recipe& r) { r.stride = Stride::kThreeTerm; }},
+         [](Recipe& r) { choose_stride(r, Stride::kThreeTerm, false); }},
     Part{"stride", "weinberg", "K (a_max - a_min)^(1/4)", "[Weinberg2002]",
-         [](Recipe& r) { r.stride = Stride::kWeinberg; }},
+         [](Recipe& r) { choose_stride(r, Stride::kWeinberg, false); }},
     Part{"stride", "scarlett", "K (a_avg - a_min) / (a_max - a_min)", "[Wu2019]",
-         [](Recipe& r) { r.stride = Stride::kScarlett; }},
+         [](Recipe& r) { choose_stride(r, Stride::kScarlett, false); }},
     Part{"stride", "kim", "K (mean |a|)^(1/3)", "[Wu2019]",
-         [](Recipe& r) { r.stride = Stride::kKim; }},
-    Part{"stride", "improved", "K1 mean|a| T + K2 (a_max - a_min)^(1/4), corrected on line",
-         "[Wu2019]", [](Recipe& r) { r.stride = Stride::kImproved; }},
+         [](Recipe& r) { choose_stride(r, Stride::kKim, false); }},
+    Part{"stride", "improved", "K1 mean|a| T + K2 (a_max - a_min)^(1/4)",
+         "[Wu2019]", [](Recipe& r) { choose_stride(r, Stride::kImproved, false); }},
+    Part{"stride", "improved_learnt", "the same, K1 and K2 corrected on line by scans", "[Wu2019]",
+         [](Recipe& r) { choose_stride(r, Stride::kImproved, true); }},
     Part{"stride", "chen", "height and step frequency", "[Zhong2017]",
-         [](Recipe& r) { r.stride = Stride::kChen; }},
+         [](Recipe& r) { choose_stride(r, Stride::kChen, false); }},
     Part{"stride", "proportional", "a share of the height", "[Zhong2017]",
-         [](Recipe& r) { r.stride = Stride::kProportional; }},
+         [](Recipe& r) { choose_stride(r, Stride::kProportional, false); }},
     Part{"stride", "table", "height by steps in two seconds", "[Zhong2017]",
-         [](Recipe& r) { r.stride = Stride::kTable; }},
+         [](Recipe& r) { choose_stride(r, Stride::kTable, false); }},
 
     Part{"heading", "rotation_vector", "gyroscope held to the phone's own attitude", "own",
          [](Recipe& r) { r.heading = Heading::kRotationVector; }},

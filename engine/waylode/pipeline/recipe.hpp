@@ -48,6 +48,7 @@ struct Recipe {
   pdr::DeadReckoning::Detector steps = pdr::DeadReckoning::Detector::kThreshold;
   pdr::DeadReckoning::Validity validity = pdr::DeadReckoning::Validity::kOff;
   pdr::StrideModel::Model stride = pdr::StrideModel::Model::kThreeTerm;
+  bool learns_stride = false;  ///< Its gains are corrected on line; for kImproved.
   pdr::DeadReckoning::HeadingSource heading = pdr::DeadReckoning::HeadingSource::kRotationVector;
   RadioPart radio = RadioPart::kWknn;
   MagneticPart magnetic = MagneticPart::kNone;

@@ -9,6 +9,7 @@
 #include "waylode/pdr/dead_reckoning.hpp"
 #include "waylode/pipeline/estimator.hpp"
 #include "waylode/pipeline/field_matching.hpp"
+#include "waylode/pipeline/stride_learning.hpp"
 #include "waylode/radio/alternatives.hpp"
 #include "waylode/radio/scan_assembler.hpp"
 #include "waylode/radio/wknn.hpp"
@@ -70,6 +71,7 @@ struct Session::Pipeline {
   HeardScans heard;
   radio::WknnEstimator foreign;                         ///< Tells scans of elsewhere.
   std::shared_ptr<const radio::Positioner> positioner;  ///< None: the method has no radio.
+  std::optional<StrideLearning> learning;               ///< None: the stride has no gains to learn.
   std::unique_ptr<FieldMatching> field;  ///< None: the method has no use for the field.
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
@@ -83,6 +85,7 @@ struct Session::Pipeline {
       return;
     }
     heard.add(query);
+    if (learning) learning->add(placed->observation);
     estimator->add(placed->observation, heard);
     last_scan = query.delivered;
   }
@@ -101,6 +104,9 @@ struct Session::Pipeline {
   void move(const sample::Sample& sample) {
     const auto motion = reckoning.add(sample);
     if (motion) estimator->add(*motion);
+    if (motion && learning) {
+      if (const auto gains = learning->add(*motion)) reckoning.set_stride_gains(*gains);
+    }
     if (!field) return;
     const auto observation = field->add(sample, motion, reckoning.up_in_device(), *estimator);
     if (observation) estimator->add(*observation);
@@ -140,11 +146,20 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
     if (!fields) return tl::unexpected(fields.error());
     field = std::make_unique<FieldMatching>(model->site(), *std::move(fields), tunables.field);
   }
+  std::optional<StrideLearning> learning;
+  if (recipe.learns_stride && positioner) {
+    pdr::StrideCalibrator::Options calibrator;
+    calibrator.prior = tunables.pdr.stride.gains;
+    learning.emplace(*model->site(), calibrator);
+  }
+  // [Wu2019] 1.1 keeps phones' hotspots out of every distance; our own matching bears them.
+  const bool drops_hotspots = positioner && recipe.radio != RadioPart::kWknn;
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
       model, method, options, pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
-      radio::ScanAssembler(tunables.scan), HeardScans(*model),
-      radio::WknnEstimator(model->matcher(), tunables.wknn), std::move(positioner),
-      std::move(field), make_estimator(*model, method, options), std::nullopt, std::nullopt});
+      radio::ScanAssembler(tunables.scan, drops_hotspots ? &model->hotspots() : nullptr),
+      HeardScans(*model), radio::WknnEstimator(model->matcher(), tunables.wknn),
+      std::move(positioner), std::move(learning), std::move(field),
+      make_estimator(*model, method, options), std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 

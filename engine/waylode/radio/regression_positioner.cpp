@@ -146,6 +146,7 @@ core::Result<void> RegressionPositioner::Options::validate() const {
   if (max_transmitters < 1 || max_transmitters > 1000) {
     return refuse("max_transmitters must be in [1, 1000]");
   }
+  if (!(rate_transmitters > 0.0)) return refuse("rate_transmitters must be positive");
   if (max_points < kFewestPoints || max_points > 2000) {
     return refuse("max_points must be in [5, 2000]");
   }
@@ -194,8 +195,13 @@ core::Result<RegressionPositioner::FloorModel> RegressionPositioner::learn_floor
 
   const Samples samples = thinned(all, options_.max_points);
   if (static_cast<std::size_t>(samples.places_m.rows()) < kFewestPoints) return model;
+  Options options = options_;
+  const double shrink =
+      std::min(1.0, options.rate_transmitters / static_cast<double>(model.transmitters.size()));
+  options.relevance.kernel.gauss_rate *= shrink;
+  options.relevance.kernel.laplace_rate *= shrink;
   auto regression =
-      learn::Regression::train(samples.inputs, samples.places_m, regression_options(options_));
+      learn::Regression::train(samples.inputs, samples.places_m, regression_options(options));
   if (!regression) return tl::unexpected(regression.error());
   if (options_.kind == Kind::kSupportVectors) model.residual_m = residual_m(*regression, samples);
   model.regression = std::move(*regression);

@@ -27,7 +27,10 @@ class RegressionPositioner final : public Positioner {
         .kernel = {.gauss_rate = 1.0, .laplace_rate = 1.0, .normalise_spline = true}, .fit = {}};
     learn::SupportVectorRegression::Options support{};
     learn::InputScaler::Options scaler{};
-    std::size_t max_transmitters = 16;  ///< Per floor, those that vary the most; 1 to 1000.
+    std::size_t max_transmitters = 200;  ///< Per floor, those that vary the most; 1 to 1000.
+    /// The kernels' rates are for so many transmitters; with more, squared distances grow, and the
+    /// rates shrink in proportion. Above 0.
+    double rate_transmitters = 16.0;
     /// Per floor; where there are more, neighbours are merged on a coarser and coarser grid until
     /// they are as few. Training takes the cube of it; 5 to 2000.
     std::size_t max_points = 300;
