@@ -44,7 +44,36 @@ name = "guest"
 route = ["4", "5", "6", "3", "2", "1"]
 start_s = 600.0
 """
-VERBS = ["simulate", "inspect", "convert", "site", "track", "evaluate", "methods", "config", "version"]
+LOOP = """
+name = "loop"
+seed = 12
+
+[building]
+name = "loop"
+cell_m = 1.0
+drawing = '''
+floor G level 0 elevation_m 0
+##########################
+#1......................2#
+#.######################.#
+#.######################.#
+#.######################.#
+#.######################.#
+#.######################.#
+#.######################.#
+#.######################.#
+#.######################.#
+#4......................3#
+##########################
+'''
+
+[[walker]]
+name = "round"
+survey = true
+route = ["1", "2", "3", "4", "1"]
+"""
+VERBS = ["simulate", "inspect", "convert", "site", "track", "evaluate", "reproduce", "methods",
+         "config", "version"]
 
 
 def errors() -> dict:
@@ -99,7 +128,8 @@ class Help(CliTest):
 
     def test_every_verb_explains_itself_with_an_example(self):
         for words in [["simulate"], ["inspect"], ["convert"], ["site", "build"], ["site", "show"],
-                      ["track"], ["evaluate", "mcap"], ["methods"], ["config", "dump"],
+                      ["site", "from-walks"], ["track"], ["evaluate", "mcap"], ["reproduce"],
+                      ["methods"], ["config", "dump"],
                       ["config", "check"]]:
             with self.subTest(words=words):
                 result = run(*words, "--help")
@@ -117,11 +147,94 @@ class Help(CliTest):
 
 
 class Methods(CliTest):
+    SLOTS = ["steps", "validity", "stride", "heading", "radio", "magnetic", "fusion"]
+
+    def listed(self) -> dict:
+        return json.loads(run("methods", "--json").stdout)
+
+    def blocks(self) -> list:
+        """Of the text: methods, what they are made of, parts, how to mix."""
+        return [block.splitlines() for block in run("methods").stdout.split("\n\n")]
+
     def test_json_lists_what_the_table_lists(self):
-        listed = [method["name"] for method in json.loads(run("methods", "--json").stdout)["methods"]]
-        table = [line.split()[0] for line in run("methods").stdout.splitlines()[1:]]
-        self.assertEqual(listed, table)
-        self.assertLessEqual({"wknn", "pdr", "fused", "smoothed"}, set(listed))
+        names = [method["name"] for method in self.listed()["methods"]]
+        methods, recipes, parts, _ = self.blocks()
+        self.assertEqual([line.split()[0] for line in methods[1:]], names)
+        self.assertEqual([line.split()[0] for line in recipes[1:]], names)
+        self.assertLessEqual({"wknn", "pdr", "wu2019", "zhou2016", "zhao2019", "zhong2017", "fused",
+                              "smoothed"}, set(names))
+        self.assertEqual([line.split()[:2] for line in parts[1:]],
+                         [[part["slot"], part["name"]] for part in self.listed()["parts"]])
+
+    def test_every_method_fills_every_slot_with_a_part_that_is_listed(self):
+        told = self.listed()
+        parts = {(part["slot"], part["name"]) for part in told["parts"]}
+        self.assertEqual(len(parts), len(told["parts"]))
+        for part in told["parts"]:
+            self.assertEqual(list(part), ["slot", "name", "summary", "source"])
+            self.assertTrue(all(part.values()), part)
+        for method in told["methods"]:
+            self.assertEqual(list(method["parts"]), self.SLOTS, method["name"])
+            self.assertLessEqual(set(method["parts"].items()), parts, method["name"])
+
+    def test_recipes_are_words_that_make_mixtures(self):
+        recipes = {line.split()[0]: line.split()[1:] for line in self.blocks()[1][1:]}
+        for method in self.listed()["methods"]:
+            self.assertEqual(recipes[method["name"]],
+                             [f"{slot}={part}" for slot, part in method["parts"].items()])
+
+    def test_mixtures_track(self):
+        words = ["track", self.sim / "guest.mcap", "--site", self.site, "--format", "json",
+                 "--method"]
+        result = run(*words, "wu2019+stride=kim+fusion=pairs")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        fixes = json.loads(result.stdout)["fixes"]
+        self.assertEqual({fix["method"] for fix in fixes}, {"wu2019+stride=kim+fusion=pairs"})
+        self.assertTrue(any(fix["position"] for fix in fixes))
+        self.assert_error(run(*words, "wu2019+stride=giant"), "method_unknown", "weinberg")
+        self.assert_error(run(*words, "fused+radio=none"), "invalid_argument", "dead_reckoning")
+
+
+class Reproduce(CliTest):
+    def reproduce(self, *words):
+        environment = {name: value for name, value in os.environ.items() if name != "WAYLODE_DATA"}
+        return run("reproduce", *words, cwd=self.folder, env=environment)
+
+    def test_prints_figures_and_counts_the_bars(self):
+        out = self.folder / "zhao.json"
+        report = self.folder / "zhao.html"
+        result = self.reproduce("zhao2019", "--preset", "kernel", "--seeds", "2", "--report", report,
+                                "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        last = result.stdout.splitlines()[-1]
+        self.assertRegex(last, r"\Abars reached \d+ of \d+\Z")
+        reached, judged = (int(word) for word in last.split() if word.isdigit())
+        self.assertLessEqual(reached, judged)
+        self.assertGreater(judged, 0)
+        self.assertIn(f"report: {report}\n", result.stdout)
+        self.assertIn("<html", report.read_text(encoding="utf-8"))
+        json.loads(out.read_text(encoding="utf-8"))
+
+    def test_same_seeds_give_the_same_figures(self):
+        words = ["zhao2019", "--preset", "kernel", "--seeds", "2", "--report", "same.html"]
+        first = self.reproduce(*words)
+        self.assertEqual(self.reproduce(*words).stdout, first.stdout)
+        self.assertNotEqual(self.reproduce(*words, "--first-seed", "9").stdout, first.stdout)
+
+    def test_unknown_preset_names_the_known_ones(self):
+        before = sorted(self.folder.iterdir())
+        self.assert_error(self.reproduce("zhao2019", "--preset", "attic"), "invalid_argument",
+                          "attic", "kernel", "harsh")
+        self.assert_error(self.reproduce("all", "--preset", "kernel"), "invalid_argument", "kernel")
+        self.assert_error(self.reproduce("smith1999"), "invalid_argument")
+        self.assertEqual(sorted(self.folder.iterdir()), before)
+
+    def test_results_that_could_not_be_kept_stop_it_before_work(self):
+        missing = self.folder / "nowhere" / "out"
+        for option in ("--out", "--report"):
+            # The preset is unknown, too: the output is looked at first.
+            result = self.reproduce("zhao2019", "--preset", "attic", option, missing)
+            self.assert_error(result, "file_unwritable", missing)
 
 
 class Inspect(CliTest):
@@ -310,6 +423,48 @@ class Site(CliTest):
         # The marks span 27 m by 2 m; 10 m are left around them.
         self.assertAlmostEqual(floors[0]["width_m"], 47.0, delta=1.0)
         self.assertIn("floors", json.loads((self.folder / "quality.json").read_text()))
+
+
+class SiteFromWalks(CliTest):
+    def from_walks(self, name: str, *words):
+        scenario = self.file("loop.toml", LOOP.encode())
+        run("simulate", scenario, "--out", self.folder / "loop")
+        self.plan = self.folder / name
+        return run("site", "from-walks", self.folder / "loop/round.mcap", "--out", self.plan,
+                   "--landmarks", "NW,NE,SE,SW,NW", *words)
+
+    def test_plan_of_a_walk_is_one_that_a_site_is_built_with(self):
+        result = self.from_walks("walked.geojson", "--floor", "G", "--width", "3",
+                                 "--known-distance", "NW:NE=23")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"\Awrote \d+ corridors between \d+ places from 1 of 1 walks; ")
+        self.assertEqual(json.loads(self.plan.read_text(encoding="utf-8"))["type"],
+                         "FeatureCollection")
+        site = self.folder / "walked.wlsite"
+        built = run("site", "build", site, "--name", "walked", "--plan", self.plan)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        floors = json.loads(run("site", "show", site, "--json").stdout)["floors"]
+        self.assertEqual([floor["floor"] for floor in floors], ["G"])
+        # The way round is 23 m by 9 m between the corners, however the plan lies.
+        sides = sorted([floors[0]["width_m"], floors[0]["height_m"]])
+        self.assertAlmostEqual(sides[1], 23.0 + 3.0, delta=3.0)
+        self.assertAlmostEqual(sides[0], 9.0 + 3.0, delta=3.0)
+
+    def test_distances_are_told_by_two_landmarks(self):
+        for text in ("Door", "Door:Lift", "Door:Lift=far", "Door:Lift=nan", ":Lift=3", "Door:=3"):
+            self.assert_error(self.from_walks("bad.geojson", "--known-distance", text),
+                              "invalid_argument", text)
+        self.assertFalse(self.plan.exists())
+
+    def test_plan_that_could_not_be_kept_stops_it_before_work(self):
+        out = self.folder / "nowhere" / "plan.geojson"
+        self.assert_error(run("site", "from-walks", self.folder / "no.mcap", "--out", out),
+                          "file_unwritable", out)
+
+    def test_missing_log(self):
+        missing = self.folder / "nowhere.mcap"
+        self.assert_error(run("site", "from-walks", missing, "--out", self.folder / "x.geojson"),
+                          "file_not_found", missing)
 
 
 class Track(CliTest):
