@@ -17,7 +17,7 @@ namespace waylode::cli {
 /// oxford-steps, uji-mag as docs/benchmarks.md names them). A folder that is not there is noted in
 /// an outcome without figures; one that cannot be read is an error. `paper` is "wu2019", ...
 core::Result<std::vector<experiment::Outcome>> reproduce_on_recordings(
-    const std::string& paper, const std::filesystem::path& data,
-    const pipeline::Options& options, const core::LogSink& log);
+    const std::string& paper, const std::filesystem::path& data, const pipeline::Options& options,
+    const core::LogSink& log);
 
 }  // namespace waylode::cli

@@ -65,8 +65,7 @@ TEST(ZhouTracker, BeginsByWifiAndWalks) {
     EXPECT_EQ(tracker.at(at_s(0.0)).position_m, Vector2(3.0, 2.0));
     ASSERT_TRUE(tracker.add(step_of(0.0, 0.5, 0.7, 0.0)));
     // The mean of cos over a Gaussian heading is exp(-sigma^2 / 2).
-    const double sigma_rad =
-        options.robust_filter ? options.filter.heading_offset_sigma_rad : 0.0;
+    const double sigma_rad = options.robust_filter ? options.filter.heading_offset_sigma_rad : 0.0;
     const double ahead_m = 0.7 * std::exp(-0.5 * sigma_rad * sigma_rad);
     EXPECT_NEAR(tracker.at(at_s(0.5)).position_m.x(), 3.0 + ahead_m, 0.01);
     EXPECT_NEAR(tracker.at(at_s(0.5)).position_m.y(), 2.0, 1e-9);
