@@ -123,7 +123,7 @@ struct Comparison {
 
 Comparison comparison_of(const std::string& paper) {
   if (paper == "wu2019") {
-    return {"wu2019", {"wknn+radio=region_wknn", "wu2019+fusion=dead_reckoning"}};
+    return {"wu2019", {"wknn+radio=region_wknn", "wu2019+stride=improved+fusion=dead_reckoning"}};
   }
   if (paper == "zhou2016") {
     return {"zhou2016", {"wknn+radio=window_knn", "zhou2016+magnetic=none+fusion=dead_reckoning"}};

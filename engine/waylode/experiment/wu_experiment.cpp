@@ -18,7 +18,7 @@ const std::vector<Contender>& contenders() {
   static const std::vector<Contender> all = {
       {kFingerprint, "wknn+radio=region_wknn"},
       {"fingerprint, whole map", "wknn+radio=knn"},
-      {kSteps, "wu2019+fusion=dead_reckoning"},
+      {kSteps, "wu2019+stride=improved+fusion=dead_reckoning"},
       {kFused, "wu2019"},
       {"fused when far apart", "wu2019+fusion=unscented_when_large"},
       {"last pairs (literal)", "wu2019+fusion=pairs"},
