@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "waylode/core/geometry.hpp"
 #include "waylode/core/id.hpp"
 #include "waylode/core/time.hpp"
+#include "waylode/observation/likelihood_raster.hpp"
 
 /// What the estimators tell fusion. Plain values; fusion sees nothing else.
 namespace waylode::observation {
@@ -48,6 +50,8 @@ struct FloorHypothesis {
   core::Vector2 position_m = core::Vector2::Zero();         ///< Floor frame.
   core::Matrix2 covariance_m2 = core::Matrix2::Identity();  ///< Floor frame; error of position_m.
   std::vector<RadioCandidate> candidates;
+  /// For trackers that weigh places one by one; null where the matcher does not make it.
+  std::shared_ptr<const LikelihoodRaster> raster{};
 
   bool operator==(const FloorHypothesis&) const = default;
 };
