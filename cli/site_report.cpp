@@ -3,9 +3,12 @@
 #include "site_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "waylode/site/connectors.hpp"
 
 namespace waylode::cli {
 namespace {
@@ -21,6 +24,35 @@ struct FloorMap {
   std::uint64_t fingerprints = 0;
   std::uint64_t transmitters = 0;
 };
+
+/// One line per way off a floor: kind, name, place, levels.
+std::string connectors_to_text(const site::Site& site) {
+  std::string text;
+  for (const site::Floor& floor : site.floors()) {
+    for (const site::Connector& connector : floor.plan.connectors) {
+      text += fmt::format(
+          "{:<16}{:<12}{:<16}{:>8.1f}{:>8.1f}   {}\n", floor.name, site::name_of(connector.kind),
+          connector.name, connector.position_m.x(), connector.position_m.y(),
+          connector.levels.empty() ? "-" : fmt::format("{}", fmt::join(connector.levels, ", ")));
+    }
+  }
+  if (text.empty()) return text;
+  return fmt::format("\n{:<16}{:<12}{:<16}{:>8}{:>8}   {}\n", "floor", "connector", "name", "x m",
+                     "y m", "to levels") +
+         text;
+}
+
+Json connectors_to_json(const site::Plan& plan) {
+  Json list = Json::array();
+  for (const site::Connector& connector : plan.connectors) {
+    list.push_back({{"kind", site::name_of(connector.kind)},
+                    {"name", connector.name},
+                    {"x_m", connector.position_m.x()},
+                    {"y_m", connector.position_m.y()},
+                    {"levels", connector.levels}});
+  }
+  return list;
+}
 
 std::vector<FloorMap> floor_maps(const site::Site& site) {
   const site::RadioMap& map = site.radio_map();
@@ -100,17 +132,18 @@ std::string site_to_text(const site::Site& site) {
   text +=
       origin ? fmt::format("origin   {:.6f}, {:.6f}\n", origin->latitude_deg, origin->longitude_deg)
              : "origin   - (not georeferenced)\n";
-  text += fmt::format("\n{:<16}{:>6}{:>12}{:>8}{:>8}{:>14}{:>14}\n", "floor", "level", "size m",
-                      "walls", "rooms", "fingerprints", "transmitters");
+  text += fmt::format("\n{:<16}{:>6}{:>12}{:>8}{:>8}{:>8}{:>14}{:>14}\n", "floor", "level",
+                      "size m", "walls", "doors", "rooms", "fingerprints", "transmitters");
   const std::vector<FloorMap> maps = floor_maps(site);
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const site::Floor& floor = site.floors()[i];
     const core::Vector2 size_m = floor.bounds.size_m();
-    text +=
-        fmt::format("{:<16}{:>6}{:>12}{:>8}{:>8}{:>14}{:>14}\n", floor.name, floor.level,
-                    fmt::format("{:.0f} x {:.0f}", size_m.x(), size_m.y()), floor.plan.walls.size(),
-                    floor.plan.rooms.size(), maps[i].fingerprints, maps[i].transmitters);
+    text += fmt::format("{:<16}{:>6}{:>12}{:>8}{:>8}{:>8}{:>14}{:>14}\n", floor.name, floor.level,
+                        fmt::format("{:.0f} x {:.0f}", size_m.x(), size_m.y()),
+                        floor.plan.walls.size(), floor.plan.doors.size(), floor.plan.rooms.size(),
+                        maps[i].fingerprints, maps[i].transmitters);
   }
+  text += connectors_to_text(site);
   if (site.radio_map().empty()) text += "\nno radio map: build the site from surveyed logs\n";
   return text;
 }
@@ -127,6 +160,8 @@ std::string site_to_json(const site::Site& site) {
                       {"height_m", floor.bounds.size_m().y()},
                       {"walls", floor.plan.walls.size()},
                       {"rooms", floor.plan.rooms.size()},
+                      {"doors", floor.plan.doors.size()},
+                      {"connectors", connectors_to_json(floor.plan)},
                       {"heading_offset_rad", floor.heading_offset_rad},
                       {"fingerprints", maps[i].fingerprints},
                       {"transmitters", maps[i].transmitters}});

@@ -42,7 +42,7 @@ Result<BundleHeader> read_header(Bytes bytes, const std::string& place) {
                           " this program knows; use a newer waylode",
                       place);
   }
-  if (header.format_version != kBundleFormatVersion) {
+  if (header.format_version < 1) {
     return corrupt("bundle format " + std::to_string(header.format_version) + " never existed",
                    place);
   }

@@ -19,8 +19,9 @@ namespace waylode::site {
 /// docs/site-bundle.md has the layout.
 inline constexpr const char* kBundleSuffix = ".wlsite";
 
-/// The newest layout this program writes and reads.
-inline constexpr std::uint32_t kBundleFormatVersion = 1;
+/// The newest layout this program writes and reads; it reads every older one. A bundle states the
+/// oldest that holds what is in it: 2 with doors or connectors, else 1.
+inline constexpr std::uint32_t kBundleFormatVersion = 2;
 
 /// A bundle's bytes. Equal input, equal bytes. kInvalidArgument for parts that could not be loaded
 /// again: numbers that are not finite, names that are not UTF-8 or not unique, maps that

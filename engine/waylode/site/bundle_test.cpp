@@ -107,6 +107,68 @@ TEST(Bundle, GivesBackEveryPartExactly) {
   EXPECT_TRUE(std::ranges::equal((*site)->magnetic_map().points, parts.magnetic_map.points));
 }
 
+SiteParts site_with_passages() {
+  SiteParts parts = small_site();
+  parts.floors[0].plan.doors = {{Vector2(1.0 / 3.0, 2.25), 0.9}, {Vector2(4, 0), 1.8}};
+  parts.floors[0].plan.connectors = {
+      {ConnectorKind::kEscalator, "caf\xC3\xA9", Vector2(0.1, -2.5), {-2, 4}},
+      {ConnectorKind::kLift, "", Vector2(7, 8), {}}};
+  return parts;
+}
+
+std::uint32_t format_version_of(const std::string& bytes) {
+  detail::BundleHeader header;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  return header.format_version;
+}
+
+TEST(Bundle, GivesBackDoorsAndConnectors) {
+  const std::string bytes = format_bundle(site_with_passages()).value();
+  EXPECT_EQ(format_version_of(bytes), 2U);
+  const auto site = parse(bytes);
+  ASSERT_TRUE(site) << core::to_string(site.error());
+  EXPECT_EQ((*site)->floors(), site_with_passages().floors);
+}
+
+TEST(Bundle, StatesTheOldestFormatThatHoldsIt) {
+  EXPECT_EQ(format_version_of(format_bundle(small_site()).value()), 1U);
+  SiteParts parts = site_with_passages();
+  parts.floors[0].plan.doors.clear();
+  EXPECT_EQ(format_version_of(format_bundle(parts).value()), 2U);
+}
+
+TEST(Bundle, ReadsAFileOfFormat1) {
+  // Written by the program that knew no other.
+  const auto site = load_bundle(test::source_root() / "testdata/site_bundle/format_1.wlsite");
+  ASSERT_TRUE(site) << core::to_string(site.error());
+  EXPECT_EQ((*site)->floors(), small_site().floors);
+  EXPECT_EQ((*site)->radio_map().postings.size(), 3U);
+  EXPECT_EQ((*site)->magnetic_map().points.size(), 2U);
+}
+
+TEST(Bundle, RefusesDoorsAndConnectorsThatMakeNoSense) {
+  const auto expect_refused = [](const SiteParts& parts, const std::string& words) {
+    const auto bytes = format_bundle(parts);
+    ASSERT_FALSE(bytes) << words;
+    EXPECT_THAT(bytes.error().message, HasSubstr(words));
+  };
+  SiteParts parts = site_with_passages();
+  parts.floors[0].plan.doors[1].width_m = 0.0;
+  expect_refused(parts, "a door has no width");
+  parts = site_with_passages();
+  parts.floors[0].plan.doors[0].position_m.x() = std::nan("");
+  expect_refused(parts, "no finite number");
+  parts = site_with_passages();
+  parts.floors[0].plan.connectors[1].position_m.y() = std::numeric_limits<double>::infinity();
+  expect_refused(parts, "no finite number");
+  parts = site_with_passages();
+  parts.floors[0].plan.connectors[0].name = "\xFF";
+  expect_refused(parts, "not UTF-8");
+  std::string bytes = format_bundle(site_with_passages()).value();
+  bytes.replace(bytes.find("escalator"), 9, "elevators");
+  expect_corrupt(resealed(bytes), "a connector is of no known kind");
+}
+
 TEST(Bundle, HasOneVersionPerContent) {
   const SiteParts parts = small_site();
   EXPECT_EQ(format_bundle(parts).value(), format_bundle(parts).value());

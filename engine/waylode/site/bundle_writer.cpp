@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Waylode authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -56,10 +57,18 @@ std::string lay_out(std::span<const Section> sections) {
   return bytes;
 }
 
-void seal(std::string& bytes, std::size_t section_count) {
+/// The oldest format that holds the site.
+std::uint32_t format_version_of(const SiteParts& parts) {
+  const bool has_passages = std::ranges::any_of(parts.floors, [](const Floor& floor) {
+    return !floor.plan.doors.empty() || !floor.plan.connectors.empty();
+  });
+  return has_passages ? 2 : 1;
+}
+
+void seal(std::string& bytes, std::size_t section_count, std::uint32_t format_version) {
   const std::string_view content = std::string_view(bytes).substr(sizeof(BundleHeader));
   BundleHeader header;
-  header.format_version = kBundleFormatVersion;
+  header.format_version = format_version;
   header.section_count = static_cast<std::uint32_t>(section_count);
   header.file_size = bytes.size();
   const std::uint64_t hash = fnv1a_64(content);
@@ -83,7 +92,7 @@ Result<std::string> format_bundle(const SiteParts& parts) {
   const std::vector<MagneticPoint>& field = parts.magnetic_map.points;
   if (!field.empty()) sections.emplace_back(detail::kMagneticSection, bytes_of(field));
   std::string bytes = lay_out(sections);
-  seal(bytes, sections.size());
+  seal(bytes, sections.size(), format_version_of(parts));
   // What cannot be loaded is not written.
   const auto loaded = parse_bundle(std::as_bytes(std::span(bytes)), nullptr, parts.name);
   if (!loaded) {

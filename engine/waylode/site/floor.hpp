@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,33 @@ struct Room {
   bool operator==(const Room&) const = default;
 };
 
+/// A way through walls: within this circle no wall or edge of an obstacle is in the way.
+struct Door {
+  core::Vector2 position_m;  ///< Its middle.
+  double width_m = 0.0;      ///< Diameter of the circle, positive.
+  bool operator==(const Door&) const = default;
+};
+
+enum class ConnectorKind : std::uint8_t { kStairs, kLift, kEscalator, kRamp };
+
+/// Where people leave this floor for others, or come out. The entries of one staircase or lift have
+/// the same kind and name on all its floors.
+struct Connector {
+  ConnectorKind kind = ConnectorKind::kStairs;
+  std::string name;          ///< May be empty: then the entry stands for itself.
+  core::Vector2 position_m;  ///< On this floor.
+  std::vector<int> levels;   ///< One gets from here to these; empty: not known, so perhaps to any.
+  bool operator==(const Connector&) const = default;
+};
+
 /// What is drawn on a floor. Empty members mean "not known", never "nothing there".
 struct Plan {
   std::vector<Polygon> walkable;   ///< Outlines: where people can be unless an obstacle is there.
   std::vector<Polygon> obstacles;  ///< Shops, shafts, blocks as drawn; they win over `walkable`.
   std::vector<Wall> walls;
   std::vector<Room> rooms;
+  std::vector<Door> doors{};
+  std::vector<Connector> connectors{};
   bool operator==(const Plan&) const = default;
 };
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "waylode/site/detail/cell_grid.hpp"
+#include "waylode/site/detail/crossing.hpp"
+#include "waylode/site/detail/doorways.hpp"
 #include "waylode/site/detail/wall_edges.hpp"
 
 namespace waylode::site {
@@ -29,19 +31,6 @@ using core::Vector2;
 constexpr double kLattice_m = 0.25;
 constexpr double kMaxSearch_m = 50.0;
 
-/// Twice the area of the triangle: positive when `point` is left of the way from `a` to `b`.
-double turn(const Vector2& a, const Vector2& b, const Vector2& point) {
-  return (b.x() - a.x()) * (point.y() - a.y()) - (b.y() - a.y()) * (point.x() - a.x());
-}
-
-bool crosses(const detail::CellGrid::Segment& wall, const Vector2& from, const Vector2& to) {
-  const auto& [a, b] = wall;
-  if ((turn(a, b, from) >= 0.0) == (turn(a, b, to) >= 0.0)) return false;
-  const double side_of_a = turn(from, to, a);
-  const double side_of_b = turn(from, to, b);
-  return (side_of_a <= 0.0 && side_of_b >= 0.0) || (side_of_a >= 0.0 && side_of_b <= 0.0);
-}
-
 /// Whether a ray to the right of the point meets the ring an odd number of times.
 bool encloses(const Ring& ring, const Vector2& point) {
   bool inside = false;
@@ -50,7 +39,7 @@ bool encloses(const Ring& ring, const Vector2& point) {
     const Vector2& b = ring[i];
     if ((a.y() > point.y()) == (b.y() > point.y())) continue;
     // The edge's lower end first: neighbours that share an edge compute the same sign.
-    const double side = a.y() < b.y() ? turn(a, b, point) : turn(b, a, point);
+    const double side = a.y() < b.y() ? detail::turn(a, b, point) : detail::turn(b, a, point);
     if (side > 0.0) inside = !inside;
   }
   return inside;
@@ -85,10 +74,11 @@ detail::CellGrid grid_of(const std::vector<Polygon>& polygons) {
   return detail::CellGrid::of_boxes(boxes);
 }
 
-/// The drawn walls and the obstacles' edges.
+/// The drawn walls and the obstacles' edges, with the doors open.
 std::vector<detail::CellGrid::Segment> barriers_of(const Plan& plan) {
   std::vector<detail::CellGrid::Segment> barriers;
-  for (const Wall& wall : detail::walls_with_obstacle_edges(plan)) {
+  const std::vector<Wall> walls = detail::walls_with_obstacle_edges(plan);
+  for (const Wall& wall : detail::without_doorways(walls, plan.doors)) {
     barriers.emplace_back(wall.from_m, wall.to_m);
   }
   return barriers;
@@ -120,8 +110,10 @@ bool FloorGeometry::is_walkable(const Vector2& point_m) const {
 bool FloorGeometry::crosses_wall(const Vector2& from_m, const Vector2& to_m) const {
   const Index& index = *index_;
   return index.wall_grid.any_along(from_m, to_m, [&](std::span<const std::uint32_t> items) {
-    return std::ranges::any_of(
-        items, [&](std::uint32_t item) { return crosses(index.walls[item], from_m, to_m); });
+    return std::ranges::any_of(items, [&](std::uint32_t item) {
+      const auto& [a, b] = index.walls[item];
+      return detail::crosses(a, b, from_m, to_m);
+    });
   });
 }
 

@@ -25,10 +25,11 @@ class FloorGeometry {
   bool is_walkable(const core::Vector2& point_m) const;
 
   /// Whether the straight way crosses a wall or an obstacle's edge (the edges of walkable areas are
-  /// no walls by themselves). A wall divides the plane into its left side, with the line itself,
-  /// and its right; a way crosses when its ends are on different sides and it meets the wall, the
-  /// wall's ends included. So walking along a wall or standing still does not cross, two walls that
-  /// share an end leave no gap, and of a way split at any point one part crosses if the whole does.
+  /// no walls by themselves, doors are open). A wall divides the plane into its left side, with the
+  /// line itself, and its right; a way crosses when its ends are on different sides and it meets
+  /// the wall, the wall's ends included. So walking along a wall or standing still does not cross,
+  /// two walls that share an end leave no gap, and of a way split at any point one part crosses if
+  /// the whole does.
   bool crosses_wall(const core::Vector2& from_m, const core::Vector2& to_m) const;
 
   /// A walkable point near `point_m`: the point itself, or the nearest one of a 0.25 m lattice

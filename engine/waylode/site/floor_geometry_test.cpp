@@ -29,6 +29,15 @@ Plan hall() {
   return plan;
 }
 
+TEST(FloorGeometry, DoorsAreOpen) {
+  Plan plan;
+  plan.walls = {{Vector2(3, 0), Vector2(3, 12)}};
+  plan.doors = {{Vector2(3, 6), 1.5}};
+  const FloorGeometry geometry(plan);
+  EXPECT_FALSE(geometry.crosses_wall({2, 6.7}, {4, 6.7}));
+  EXPECT_TRUE(geometry.crosses_wall({2, 6.8}, {4, 6.8}));
+}
+
 TEST(FloorGeometry, KnowsWherePeopleCanBe) {
   const FloorGeometry geometry(hall());
   EXPECT_TRUE(geometry.is_walkable(Vector2(1, 1)));

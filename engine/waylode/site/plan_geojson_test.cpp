@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "test_support.hpp"
@@ -105,6 +106,60 @@ TEST(PlanFormat, TakesLevelFromTheNameWhenNotGiven) {
   EXPECT_TRUE(draft->floor.plan.walkable.empty());
 }
 
+std::string passage(const std::string& properties, const std::string& geometry) {
+  return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {)" + geometry +
+         "}}";
+}
+const std::string kPoint = R"("type": "Point", "coordinates": [7, 3.5])";
+
+TEST(PlanFormat, ReadsDoorsAndConnectors) {
+  const std::string head = R"("format_version": 2, "floor": "F2", "bounds_m": [[0, 0], [40, 20]])";
+  const auto draft = parse_plan(
+      plan(head, passage(R"("kind": "door", "width_m": 0.9)", kPoint) + "," +
+                     passage(R"("kind": "door")",
+                             R"("type": "LineString", "coordinates": [[1, 2], [4, 6]])") +
+                     "," + passage(R"("kind": "stairs", "name": "S", "levels": [-1, 1])", kPoint) +
+                     "," + passage(R"("kind": "lift")", kPoint)),
+      "p");
+  ASSERT_TRUE(draft) << core::to_string(draft.error());
+  EXPECT_EQ(draft->floor.plan.doors,
+            (std::vector<Door>{{Vector2(7, 3.5), 0.9}, {Vector2(2.5, 4), 5.0}}));
+  EXPECT_EQ(draft->floor.plan.connectors,
+            (std::vector<Connector>{{ConnectorKind::kStairs, "S", Vector2(7, 3.5), {-1, 1}},
+                                    {ConnectorKind::kLift, "", Vector2(7, 3.5), {}}}));
+  EXPECT_THAT(format_plan(*draft), HasSubstr(R"("format_version":2)"));
+  const auto again = parse_plan(format_plan(*draft), "again");
+  ASSERT_TRUE(again) << core::to_string(again.error());
+  EXPECT_EQ(again->floor.plan, draft->floor.plan);
+}
+
+TEST(PlanFormat, RefusesDoorsAndConnectorsThatMakeNoSense) {
+  const std::string line_of_three =
+      R"("type": "LineString", "coordinates": [[1, 1], [2, 2], [3, 3]])";
+  const std::string no_line = R"("type": "LineString", "coordinates": [[1, 1], [1, 1]])";
+  const std::string outside = R"("type": "Point", "coordinates": [7, 30])";
+  const std::array<std::array<std::string, 3>, 11> kCases = {{
+      {R"("kind": "door")", kPoint, "no width_m"},
+      {R"("kind": "door", "width_m": 0)", kPoint, "no width_m"},
+      {R"("kind": "door", "width_m": 101)", kPoint, "no width_m"},
+      {R"("kind": "door", "width_m": "1")", kPoint, "no width_m"},
+      {R"("kind": "door")", line_of_three, "jamb to jamb"},
+      {R"("kind": "door")", no_line, "not above 0"},
+      {R"("kind": "door")", R"("type": "Polygon", "coordinates": [])", "Point or LineString"},
+      {R"("kind": "lift")", no_line, "must be a Point"},
+      {R"("kind": "lift")", outside, "outside bounds_m"},
+      {R"("kind": "lift", "levels": 3)", kPoint, "levels"},
+      {R"("kind": "lift", "levels": [1.5])", kPoint, "levels"},
+  }};
+  for (const auto& [properties, geometry, words] : kCases) {
+    const auto draft = parse_plan(plan(kHead, passage(properties, geometry)), "p");
+    ASSERT_FALSE(draft) << words;
+    EXPECT_EQ(draft.error().code, ErrorCode::kPlanInvalid);
+    EXPECT_THAT(draft.error().message, HasSubstr(words));
+    EXPECT_THAT(draft.error().place, HasSubstr("feature 0"));
+  }
+}
+
 TEST(PlanFormat, RoundTripsToTheMillimetre) {
   FloorDraft draft = bare_floor("B2", {Vector2(-10.25, 3), Vector2(90.5, 61)});
   draft.floor.elevation_m = -7.3;
@@ -170,7 +225,7 @@ TEST(PlanFormat, RefusesABadHead) {
       {"[]", "no Waylode plan", "plan.geojson"},
       {R"({"features": []})", "no Waylode plan", "plan.geojson"},
       {plan(""), "no format_version", head},
-      {plan(R"("format_version": 2)"), "format_version is not 1", head},
+      {plan(R"("format_version": 3)"), "format_version is not 1", head},
       {plan(R"("format_version": 1)"), "no floor", head},
       {plan(start + R"("bounds": 1)"), "unknown member bounds", head},
       {plan(start + R"("level": 1)"), "no bounds_m", head},
@@ -214,7 +269,7 @@ TEST(PlanFormat, RefusesABadFeatureAndNamesIt) {
   const std::string place = "plan.geojson feature 1";
   const BadPlan cases[] = {
       {after_a_good_one("3"), "no geometry", place},
-      {after_a_good_one(area("door", kSquare)), "kind is not", place},
+      {after_a_good_one(area("gate", kSquare)), "kind is not", place},
       {after_a_good_one(area("room", kSquare)), "no name", place},
       {after_a_good_one(area("wall", kSquare)), "must be a LineString", place},
       {after_a_good_one(area("walkable", "[]")), "no ring", place},

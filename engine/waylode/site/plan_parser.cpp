@@ -20,7 +20,7 @@ using core::Vector2;
 using detail::find_member;
 using nlohmann::json;
 
-constexpr int kPlanFormatVersion = 1;
+constexpr int kPlanFormatVersion = 2;
 constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxElevation_m = 10'000.0;
 constexpr int kMaxLevel = 1'000;
@@ -47,10 +47,10 @@ Result<void> check_members(const json& head, const std::string& place) {
   }
   const json* version = find_member(head, "format_version");
   if (version == nullptr || !version->is_number_integer()) {
-    return invalid("no format_version; set it to 1", place);
+    return invalid("no format_version; set it to 2", place);
   }
-  if (*version != kPlanFormatVersion) {
-    return invalid("format_version is not 1; use a newer waylode or set it to 1", place);
+  if (*version < 1 || *version > kPlanFormatVersion) {
+    return invalid("format_version is not 1 or 2; use a newer waylode or set it to 2", place);
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "waylode/site/connectors.hpp"
 #include "waylode/site/plan_geojson.hpp"
 #include "waylode/site/tangent_plane.hpp"
 
@@ -56,13 +57,21 @@ Json control_points(const FloorDraft& draft) {
 Json head(const FloorDraft& draft) {
   const Floor& floor = draft.floor;
   Json members = {
-      {"format_version", 1},
+      // The oldest that holds the plan.
+      {"format_version", floor.plan.doors.empty() && floor.plan.connectors.empty() ? 1 : 2},
       {"floor", floor.name},
       {"level", floor.level},
       {"elevation_m", floor.elevation_m},
       {"bounds_m", Json::array({to_json(floor.bounds.min_m), to_json(floor.bounds.max_m)})}};
   if (draft.origin) members["control_points"] = control_points(draft);
   return members;
+}
+
+Json to_feature(const Connector& connector) {
+  Json properties = {{"kind", name_of(connector.kind)}};
+  if (!connector.name.empty()) properties["name"] = connector.name;
+  if (!connector.levels.empty()) properties["levels"] = connector.levels;
+  return feature(std::move(properties), "Point", to_json(connector.position_m));
 }
 
 std::vector<Json> features(const Plan& plan) {
@@ -84,6 +93,11 @@ std::vector<Json> features(const Plan& plan) {
     }
     list.push_back(feature({{"kind", "wall"}}, "MultiLineString", std::move(lines)));
   }
+  for (const Door& door : plan.doors) {
+    list.push_back(feature({{"kind", "door"}, {"width_m", round_metres(door.width_m)}}, "Point",
+                           to_json(door.position_m)));
+  }
+  for (const Connector& connector : plan.connectors) list.push_back(to_feature(connector));
   return list;
 }
 

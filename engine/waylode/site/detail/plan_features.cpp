@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "waylode/site/connectors.hpp"
 #include "waylode/site/detail/json_text.hpp"
 #include "waylode/site/detail/polygon_check.hpp"
 
@@ -18,6 +19,8 @@ using Parsed = tl::expected<T, std::string>;
 
 /// How far a vertex may lie outside the bounds: the format's resolution.
 constexpr double kBoundsSlack_m = 0.001;
+constexpr double kMaxDoor_m = 100.0;
+constexpr double kMaxLevel = 1'000.0;
 
 tl::unexpected<std::string> refuse(std::string message) {
   return tl::unexpected<std::string>(std::move(message));
@@ -103,6 +106,73 @@ Parsed<void> add_wall_feature(const std::string& type, const json& coordinates,
   return {};
 }
 
+Parsed<Vector2> parse_place(const std::string& type, const json& coordinates,
+                            const core::Bounds2& bounds) {
+  if (type != "Point") return refuse("a connector must be a Point; change its geometry");
+  const auto line = parse_line(json::array({coordinates}), bounds);
+  if (!line) return tl::unexpected(line.error());
+  return line->front();
+}
+
+/// A Point with a width, or a LineString from jamb to jamb.
+Parsed<void> add_door(const std::string& type, const json& coordinates, const json* properties,
+                      const core::Bounds2& bounds, std::vector<Door>& doors) {
+  const bool is_point = type == "Point";
+  if (!is_point && type != "LineString") {
+    return refuse("a door must be a Point or LineString; change its geometry");
+  }
+  const auto jambs = parse_line(is_point ? json::array({coordinates}) : coordinates, bounds);
+  if (!jambs) return tl::unexpected(jambs.error());
+  if (is_point) {
+    const json* width = find_member(*properties, "width_m");
+    const double width_m = width != nullptr && width->is_number() ? width->get<double>() : 0.0;
+    if (!(width_m > 0.0) || !(width_m <= kMaxDoor_m)) {
+      return refuse("a door has no width_m above 0 and up to 100; give it one");
+    }
+    doors.push_back({jambs->front(), width_m});
+    return {};
+  }
+  if (jambs->size() != 2)
+    return refuse("a door's line has not two positions; draw it jamb to jamb");
+  const double width_m = (jambs->back() - jambs->front()).norm();
+  if (!(width_m > 0.0) || !(width_m <= kMaxDoor_m)) {
+    return refuse("a door is not above 0 and up to 100 m wide; draw it again");
+  }
+  doors.push_back({0.5 * (jambs->front() + jambs->back()), width_m});
+  return {};
+}
+
+Parsed<std::vector<int>> parse_levels(const json* properties) {
+  const json* value = find_member(*properties, "levels");
+  std::vector<int> levels;
+  if (value == nullptr) return levels;
+  if (!value->is_array()) return refuse("levels is no list of integers; correct it");
+  for (const json& level : *value) {
+    const double read = level.is_number_integer() ? level.get<double>() : std::nan("");
+    if (!(std::abs(read) <= kMaxLevel)) {
+      return refuse("levels is no list of integers within +-1000; correct it");
+    }
+    levels.push_back(static_cast<int>(read));
+  }
+  return levels;
+}
+
+std::string text_member(const json* object, const char* key) {
+  const json* value = object != nullptr ? find_member(*object, key) : nullptr;
+  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+Parsed<void> add_connector(ConnectorKind kind, const std::string& type, const json& coordinates,
+                           const json* properties, const core::Bounds2& bounds,
+                           std::vector<Connector>& connectors) {
+  const auto place_m = parse_place(type, coordinates, bounds);
+  if (!place_m) return tl::unexpected(place_m.error());
+  auto levels = parse_levels(properties);
+  if (!levels) return tl::unexpected(levels.error());
+  connectors.push_back({kind, text_member(properties, "name"), *place_m, *std::move(levels)});
+  return {};
+}
+
 Parsed<void> add_area(const std::string& kind, const std::string& name,
                       std::vector<Polygon> polygons, Plan& plan) {
   if (kind == "room") {
@@ -114,11 +184,6 @@ Parsed<void> add_area(const std::string& kind, const std::string& name,
   auto& areas = kind == "walkable" ? plan.walkable : plan.obstacles;
   for (Polygon& polygon : polygons) areas.push_back(std::move(polygon));
   return {};
-}
-
-std::string text_member(const json* object, const char* key) {
-  const json* value = object != nullptr ? find_member(*object, key) : nullptr;
-  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
 }  // namespace
@@ -139,8 +204,14 @@ tl::expected<void, std::string> add_feature(const json& feature, const core::Bou
   const json* properties = find_member(feature, "properties");
   const std::string kind = text_member(properties, "kind");
   if (kind == "wall") return add_wall_feature(type, *coordinates, bounds, plan.walls);
+  if (kind == "door") return add_door(type, *coordinates, properties, bounds, plan.doors);
+  if (const auto connector = connector_kind(kind)) {
+    return add_connector(*connector, type, *coordinates, properties, bounds, plan.connectors);
+  }
   if (kind != "walkable" && kind != "obstacle" && kind != "room") {
-    return refuse("kind is not walkable, obstacle, wall or room; set properties.kind");
+    return refuse(
+        "kind is not walkable, obstacle, wall, room, door, stairs, lift, escalator or ramp; set "
+        "properties.kind");
   }
   auto polygons = parse_polygons(type, *coordinates, bounds);
   if (!polygons) return tl::unexpected(polygons.error());

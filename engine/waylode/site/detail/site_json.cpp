@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "waylode/site/connectors.hpp"
 #include "waylode/site/detail/json_text.hpp"
 #include "waylode/site/tangent_plane.hpp"
 
@@ -41,6 +42,25 @@ json to_json(const std::vector<Polygon>& polygons) {
   return list;
 }
 
+json to_json(const std::vector<Door>& doors) {
+  json list = json::array();
+  for (const Door& door : doors) {
+    list.push_back({door.position_m.x(), door.position_m.y(), door.width_m});
+  }
+  return list;
+}
+
+json to_json(const std::vector<Connector>& connectors) {
+  json list = json::array();
+  for (const Connector& connector : connectors) {
+    list.push_back({{"kind", name_of(connector.kind)},
+                    {"name", connector.name},
+                    {"position_m", to_json(connector.position_m)},
+                    {"levels", connector.levels}});
+  }
+  return list;
+}
+
 json to_json(const Plan& plan) {
   json walls = json::array();
   for (const Wall& wall : plan.walls) {
@@ -50,10 +70,14 @@ json to_json(const Plan& plan) {
   for (const Room& room : plan.rooms) {
     rooms.push_back({{"name", room.name}, {"outline_m", to_json(room.outline)}});
   }
-  return {{"walkable_m", to_json(plan.walkable)},
-          {"obstacles_m", to_json(plan.obstacles)},
-          {"walls_m", std::move(walls)},
-          {"rooms", std::move(rooms)}};
+  json document = {{"walkable_m", to_json(plan.walkable)},
+                   {"obstacles_m", to_json(plan.obstacles)},
+                   {"walls_m", std::move(walls)},
+                   {"rooms", std::move(rooms)}};
+  // Not in format 1: a plan without them stays readable for programs that know no other.
+  if (!plan.doors.empty()) document["doors"] = to_json(plan.doors);
+  if (!plan.connectors.empty()) document["connectors"] = to_json(plan.connectors);
+  return document;
 }
 
 json to_json(const Affine2& map) {
@@ -125,6 +149,21 @@ std::vector<Polygon> polygons(const json& value) {
   return read;
 }
 
+Door door(const json& value) {
+  list_of(value, 3);
+  const Door read{{number(value[0]), number(value[1])}, number(value[2])};
+  if (!(read.width_m > 0.0)) throw Unusable("a door has no width");
+  return read;
+}
+
+Connector connector(const json& value) {
+  const auto kind = connector_kind(value.at("kind").get_ref<const std::string&>());
+  if (!kind) throw Unusable("a connector is of no known kind");
+  Connector read{*kind, value.at("name").get<std::string>(), point(value.at("position_m")), {}};
+  for (const json& level : list(value.at("levels"))) read.levels.push_back(integer(level));
+  return read;
+}
+
 Plan plan(const json& value) {
   Plan read;
   read.walkable = polygons(value.at("walkable_m"));
@@ -136,6 +175,14 @@ Plan plan(const json& value) {
   }
   for (const json& room : list(value.at("rooms"))) {
     read.rooms.push_back({room.at("name").get<std::string>(), polygon(room.at("outline_m"))});
+  }
+  if (value.contains("doors")) {
+    for (const json& entry : list(value["doors"])) read.doors.push_back(door(entry));
+  }
+  if (value.contains("connectors")) {
+    for (const json& entry : list(value["connectors"])) {
+      read.connectors.push_back(connector(entry));
+    }
   }
   return read;
 }
@@ -199,7 +246,7 @@ core::Result<std::string> format_site_json(const SiteParts& parts) {
     return document.dump();
   } catch (const json::type_error&) {
     return core::fail(ErrorCode::kInvalidArgument,
-                      "a site, floor or room name is not UTF-8; rename it", parts.name);
+                      "a site, floor, room or connector name is not UTF-8; rename it", parts.name);
   }
 }
 

@@ -28,6 +28,9 @@ class EdgeCollector {
     const Millimetres b = to_millimetres(to_m);
     if (a != b && seen_.insert(std::minmax(a, b)).second) walls_.push_back({from_m, to_m});
   }
+  bool contains(const Wall& wall) const {
+    return seen_.contains(std::minmax(to_millimetres(wall.from_m), to_millimetres(wall.to_m)));
+  }
   std::vector<Wall> take() { return std::move(walls_); }
 
  private:
@@ -55,6 +58,16 @@ std::vector<Wall> walls_with_obstacle_edges(const Plan& plan) {
   for (const Wall& wall : plan.walls) edges.add(wall.from_m, wall.to_m);
   for (const Polygon& polygon : plan.obstacles) edges.add(polygon);
   return edges.take();
+}
+
+Barriers barriers_of(const Plan& plan) {
+  EdgeCollector area_edges;
+  for (const Wall& edge : edges_of(plan)) area_edges.add(edge.from_m, edge.to_m);
+  Barriers barriers;
+  for (const Wall& wall : walls_with_obstacle_edges(plan)) {
+    (area_edges.contains(wall) ? barriers.edges : barriers.thin_walls).push_back(wall);
+  }
+  return barriers;
 }
 
 }  // namespace waylode::site::detail
