@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace waylode::fusion {
@@ -65,6 +66,95 @@ RC_GTEST_PROP(AdvanceFloorChain, IsADistributionAndKnowsNoOffset, ()) {
     RC_ASSERT(result[i] >= 0.0);
     RC_ASSERT(std::abs(result[i] - same[i]) < 1e-12);
   }
+}
+
+observation::VerticalMotion climb_of(double climb_m, double sigma_m) {
+  observation::VerticalMotion motion;
+  motion.climb_m = climb_m;
+  motion.sigma_m = sigma_m;
+  return motion;
+}
+
+FloorFilter::Options storeys(double storey_m, double sigma_m, double false_climb_ratio) {
+  FloorFilter::Options options;
+  options.storey_m = storey_m;
+  options.storey_sigma_m = sigma_m;
+  options.false_climb_ratio = false_climb_ratio;
+  return options;
+}
+
+std::vector<double> after_climb(const std::vector<double>& probabilities,
+                                const observation::VerticalMotion& motion,
+                                const FloorFilter::Options& options) {
+  std::vector<int> levels(probabilities.size());
+  std::iota(levels.begin(), levels.end(), -1);
+  return climb_floor_chain(probabilities, climb_fits(levels, motion, options));
+}
+
+TEST(ClimbFloorChain, MatchesHandComputation) {
+  // Variance 0.09 standing, 0.25 per storey more: 0.34 one storey off. Climb 3.6 of storeys of 4.
+  const auto result = after_climb({0.7, 0.3}, climb_of(3.6, 0.3), storeys(4.0, 0.5, 0.1));
+  const double up = std::exp(-0.5 * 0.16 / 0.34) / std::sqrt(0.34);
+  const double none = std::exp(-0.5 * 12.96 / 0.09) / 0.3;
+  const double down = std::exp(-0.5 * 57.76 / 0.34) / std::sqrt(0.34);
+  const double lower = 0.7 * (0.1 + 0.9 * none / up) + 0.3 * 0.9 * down / up;
+  const double upper = 0.3 * (0.1 + 0.9 * none / up) + 0.7 * 0.9;
+  ASSERT_EQ(result.size(), 2U);
+  EXPECT_NEAR(result[0], lower / (lower + upper), 1e-12);
+  EXPECT_NEAR(result[1], upper / (lower + upper), 1e-12);
+}
+
+TEST(ClimbFloorChain, DoubtsAStartFromWhichTheClimbLeadsNowhere) {
+  // From the upper floor a storey up is not on the map: of that start a hundredth remains, so the
+  // upper floor holds 0.99 + 0.01 of the sum 0.01 + 0.99 + 0.01 of even starts.
+  const auto result = after_climb({0.5, 0.5}, climb_of(4.5, 0.1), storeys(4.5, 0.1, 0.01));
+  EXPECT_NEAR(result[1], 1.0 / 1.01, 1e-9);
+}
+
+TEST(ClimbFloorChain, StaysWhereItWasForAnAbsurdClimb) {
+  const auto result = after_climb({0.6, 0.3, 0.1}, climb_of(1e6, 0.5), storeys(4.5, 0.8, 0.01));
+  EXPECT_NEAR(result[0], 0.6, 1e-9);
+  EXPECT_NEAR(result[1], 0.3, 1e-9);
+}
+
+TEST(ClimbFloorChain, CountsLevelsNotFloors) {
+  const auto options = storeys(4.0, 0.1, 0.01);
+  const std::vector<int> levels = {-2, 0};
+  const auto one = climb_floor_chain({1.0, 0.0}, climb_fits(levels, climb_of(4.0, 0.1), options));
+  EXPECT_NEAR(one[0], 1.0, 1e-9);
+  // Two storeys: 0.99 have moved, 0.01 may be a false climb.
+  const auto two = climb_floor_chain({1.0, 0.0}, climb_fits(levels, climb_of(8.0, 0.1), options));
+  EXPECT_NEAR(two[1], 0.99, 1e-9);
+}
+
+TEST(FloorFilter, LetsEachReportOfAClimbReplaceTheOneBefore) {
+  const std::vector<int> levels = {0, 1, 2};
+  const auto heard = votes({{0, 0.0}, {1, -1.2}, {2, -3.1}});
+  FloorFilter told_once(storeys(4.0, 0.5, 0.02), levels);
+  FloorFilter told_often(storeys(4.0, 0.5, 0.02), levels);
+  for (FloorFilter* filter : {&told_once, &told_often}) filter->add(heard);
+  for (const double climb_m : {1.7, 5.0}) told_often.add(climb_of(climb_m, 0.4));
+  for (FloorFilter* filter : {&told_once, &told_often}) filter->add(climb_of(3.8, 0.4));
+  EXPECT_EQ(told_often.probabilities(), told_once.probabilities());
+  EXPECT_EQ(told_once.most_likely(), core::FloorId{1});
+
+  observation::VerticalMotion next = climb_of(4.3, 0.4);
+  next.begin = core::device_time_from_seconds(30.0);
+  told_once.add(next);
+  EXPECT_EQ(told_once.most_likely(), core::FloorId{2});
+}
+
+TEST(FloorFilter, PassesOverClimbsThatAreNotNumbersOrComeTooEarly) {
+  FloorFilter filter(FloorFilter::Options(), 2);
+  filter.add(climb_of(4.5, 0.5));
+  EXPECT_EQ(filter.probabilities(), (std::vector<double>{0.5, 0.5}));
+  filter.add(votes({{0, 0.0}, {1, -3.0}}));
+  const std::vector<double> before = filter.probabilities();
+  filter.add(climb_of(std::nan(""), 0.5));
+  filter.add(climb_of(4.5, std::nan("")));
+  filter.add(climb_of(4.5, 0.0));
+  filter.add(climb_of(std::numeric_limits<double>::infinity(), 0.5));
+  EXPECT_EQ(filter.probabilities(), before);
 }
 
 TEST(FloorFilter, KnowsNothingBeforeTheFirstScan) {

@@ -53,10 +53,17 @@ PlanarMeasurement to_site_frame(const site::Site& site,
 }
 
 core::Belief to_floor_frame(const site::Site& site, core::FloorId floor, double probability,
-                            const PlanarState& state) {
+                            const PlanarEstimate& estimate) {
   const core::Affine2 floor_from_site = site.floor(floor).site_from_floor.inverse();
-  return {floor, probability, floor_from_site * state.position_m(),
-          floor_from_site.map_covariance(state.position_covariance_m2())};
+  return {floor, probability, floor_from_site * estimate.position_m,
+          floor_from_site.map_covariance(estimate.covariance_m2)};
+}
+
+core::Belief to_floor_frame(const site::Site& site, core::FloorId floor, double probability,
+                            const PlanarState& state) {
+  return to_floor_frame(
+      site, floor, probability,
+      PlanarEstimate{state.time, state.position_m(), state.position_covariance_m2()});
 }
 
 const observation::FloorHypothesis* find_hypothesis(
@@ -64,6 +71,12 @@ const observation::FloorHypothesis* find_hypothesis(
   const auto found =
       std::ranges::find(observation.floors, floor, &observation::FloorHypothesis::floor);
   return found == observation.floors.end() ? nullptr : &*found;
+}
+
+std::vector<int> levels_of(const site::Site& site) {
+  std::vector<int> levels;
+  for (const site::Floor& floor : site.floors()) levels.push_back(floor.level);
+  return levels;
 }
 
 observation::MotionDelta on_site_frame(const observation::MotionDelta& motion,
@@ -85,7 +98,7 @@ FusedTracker::FusedTracker(std::shared_ptr<const site::Site> site, const Options
     : site_(std::move(site)),
       options_(options),
       known_floor_(known_floor),
-      floor_filter_(options.floor, site_->floors().size()),
+      floor_filter_(options.floor, levels_of(*site_)),
       planar_(options.planar, keep_history) {}
 
 void FusedTracker::start(core::DeviceTime time, core::FloorId floor,

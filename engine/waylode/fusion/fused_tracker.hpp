@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "waylode/core/fix.hpp"
 #include "waylode/fusion/floor_filter.hpp"
+#include "waylode/fusion/planar_estimate.hpp"
 #include "waylode/fusion/planar_tracker.hpp"
 #include "waylode/observation/observation.hpp"
 #include "waylode/site/site.hpp"
@@ -52,9 +54,13 @@ PlanarMeasurement to_site_frame(const site::Site& site,
 /// A site-frame state as a belief on a floor.
 core::Belief to_floor_frame(const site::Site& site, core::FloorId floor, double probability,
                             const PlanarState& state);
+core::Belief to_floor_frame(const site::Site& site, core::FloorId floor, double probability,
+                            const PlanarEstimate& estimate);
 /// The hypothesis of a floor, or null.
 const observation::FloorHypothesis* find_hypothesis(
     const observation::RadioObservation& observation, core::FloorId floor);
+/// The levels of the site's floors.
+std::vector<int> levels_of(const site::Site& site);
 /// A step with its heading on the site frame, as far as the survey learnt it.
 observation::MotionDelta on_site_frame(const observation::MotionDelta& motion,
                                        const site::Floor& floor);
@@ -79,6 +85,7 @@ class FusedTracker {
              double sigma_m);
   void add(const observation::MotionDelta& motion);
   void add(const observation::RadioObservation& observation);
+  void add(const observation::VerticalMotion& motion) { floor_filter_.add(motion); }
   /// A scan that the map knows nothing of: no news of the place, but `outside` until it is known
   /// again.
   void hear_unknown(core::DeviceTime delivered) { newest_scan_ = HeardScan{delivered, 0.0}; }

@@ -49,6 +49,10 @@ core::Vector2 PathMemory::beyond_m(core::DeviceTime time) const {
   return std::min(1.0, since_s / step_s) * displacement_m(*last_);
 }
 
+std::optional<core::DeviceTime> PathMemory::oldest() const {
+  return points_.empty() ? std::nullopt : std::optional(points_.front().time);
+}
+
 void PathMemory::clear() {
   points_.clear();
   last_.reset();

@@ -26,6 +26,8 @@ class PathMemory {
   core::Vector2 offset_m(core::DeviceTime time) const;
   /// No step, or the last one ended by `time`.
   bool is_in_order(core::DeviceTime time) const { return !last_ || last_->end <= time; }
+  /// Since when the way is known; nullopt without a step.
+  std::optional<core::DeviceTime> oldest() const;
   void clear();
 
  private:

@@ -66,6 +66,17 @@ struct RadioObservation {
   bool operator==(const RadioObservation&) const = default;
 };
 
+/// A climb or descent, by stairs, a lift or an escalator, told by the air pressure as far as it has
+/// gone. Reports of one climb have the same `begin`; each replaces the one before.
+struct VerticalMotion {
+  core::DeviceTime begin;
+  core::DeviceTime end;
+  double climb_m = 0.0;  ///< Upwards positive.
+  double sigma_m = 0.5;  ///< Of the climb: noise, and the weather's drift meanwhile.
+
+  bool operator==(const VerticalMotion&) const = default;
+};
+
 /// Where the magnetic field of the last seconds fits the magnetic map best.
 struct MagneticObservation {
   core::DeviceTime time;  ///< Of the newest field that was matched.

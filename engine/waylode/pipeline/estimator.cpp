@@ -3,6 +3,7 @@
 #include "waylode/pipeline/estimator.hpp"
 
 #include "waylode/pipeline/paper_estimators.hpp"
+#include "waylode/pipeline/particle_estimators.hpp"
 
 namespace waylode::pipeline {
 namespace {
@@ -30,10 +31,11 @@ class WknnMethod final : public RadioEstimator {
       : model_(&model),
         wknn_(model.matcher(), model.options().wknn),
         known_floor_(options.known_floor),
-        floor_filter_(model.options().fused.floor, model.site()->floors().size()) {}
+        floor_filter_(model.options().fused.floor, fusion::levels_of(*model.site())) {}
 
   using RadioEstimator::add;
   void add(const MotionDelta&) override {}
+  void add(const observation::VerticalMotion& motion) override { floor_filter_.add(motion); }
   void hear(const RadioObservation& observation) override {
     floor_filter_.add(observation);
     newest_scan_ = fusion::HeardScan{observation.delivered, observation.known_share_ratio};
@@ -81,6 +83,7 @@ class FusedMethod final : public RadioEstimator {
 
   using RadioEstimator::add;
   void add(const MotionDelta& motion) override { tracker_.add(motion); }
+  void add(const observation::VerticalMotion& motion) override { tracker_.add(motion); }
   void hear(const RadioObservation& observation) override {
     // Dead reckoning without a start takes it from the first scan.
     if (hears_ || !tracker_.planar().started()) tracker_.add(observation);
@@ -100,33 +103,15 @@ class FusedMethod final : public RadioEstimator {
   bool hears_;
 };
 
-class FixedLagMethod final : public RadioEstimator {
+/// The robust tracker, forwards and back.
+class RobustWholeMethod final : public RadioEstimator {
  public:
-  FixedLagMethod(const Model& model, const SessionOptions& options, core::Duration lag)
-      : tracker_(model.site(), model.options().fused, options.known_floor, lag) {}
-
-  using RadioEstimator::add;
-  void add(const MotionDelta& motion) override { tracker_.add(motion); }
-  void hear(const RadioObservation& observation) override { tracker_.add(observation); }
-  void hear_unknown(core::DeviceTime delivered) override { tracker_.hear_unknown(delivered); }
-  std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
-    return tracker_.belief_at(time);
-  }
-  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const override {
-    return tracker_.state_at(time, belief);
-  }
-
- private:
-  smoothing::FixedLagTracker tracker_;
-};
-
-class WholeTrackMethod final : public RadioEstimator {
- public:
-  WholeTrackMethod(const Model& model, const SessionOptions& options)
+  RobustWholeMethod(const Model& model, const SessionOptions& options)
       : smoother_(model.site(), model.options().smoothing_options(), options.known_floor) {}
 
   using RadioEstimator::add;
   void add(const MotionDelta& motion) override { smoother_.add(motion); }
+  void add(const observation::VerticalMotion& motion) override { smoother_.add(motion); }
   void hear(const RadioObservation& observation) override { smoother_.add(observation); }
   void hear_unknown(core::DeviceTime delivered) override { smoother_.hear_unknown(delivered); }
   std::optional<core::Belief> belief_at(core::DeviceTime time) const override {
@@ -151,10 +136,12 @@ std::unique_ptr<Estimator> make_estimator(const Model& model, const Method& meth
       return std::make_unique<FusedMethod>(model, options, /*hears=*/false);
     case FusionPart::kRobust:
       return std::make_unique<FusedMethod>(model, options, /*hears=*/true);
+    case FusionPart::kRobustWhole:
+      return std::make_unique<RobustWholeMethod>(model, options);
+    case FusionPart::kParticles:
     case FusionPart::kFixedLag:
-      return std::make_unique<FixedLagMethod>(model, options, method.lag);
     case FusionPart::kWholeTrack:
-      return std::make_unique<WholeTrackMethod>(model, options);
+      return make_particle_estimator(model, method, options);
     default:
       return make_paper_estimator(method.recipe.fusion, model, options);
   }

@@ -34,6 +34,8 @@ class Estimator {
   /// A scan placed on the whole map.
   virtual void add(const observation::RadioObservation& observation, const HeardAgain& again) = 0;
   virtual void add(const observation::MagneticObservation& observation) = 0;
+  /// For methods that count floors by climbs; others pass it over.
+  virtual void add(const observation::VerticalMotion& /*motion*/) {}
   /// A scan of which the map knows nothing: tells no place, but that the phone is off the map. The
   /// state is `outside` until a known scan comes; the belief stays.
   virtual void hear_unknown(core::DeviceTime delivered) = 0;

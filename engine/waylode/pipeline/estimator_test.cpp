@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "waylode/fusion/testing/particle_model.hpp"
 #include "waylode/pipeline/testing/tiny_site.hpp"
 
 namespace waylode::pipeline {
@@ -51,7 +52,8 @@ void walk(Tracker& tracker) {
     tracker.add(step_of(0.5 * i, 0.5 * (i + 1), 0.7, 0.02 * i));
     if (i % 5 != 4) continue;
     const double x_m = i == 19 ? 39.0 : 5.0 + 0.7 * i;
-    tell(tracker, heard(0.5 * (i + 1), {{0, 0.0, {x_m, 4.0}}, {1, -2.0, {x_m, 6.0}}}, 0.8, 0.4));
+    tell(tracker, fusion::testing::with_rasters(heard(
+                      0.5 * (i + 1), {{0, 0.0, {x_m, 4.0}}, {1, -2.0, {x_m, 6.0}}}, 0.8, 0.4)));
   }
 }
 
@@ -145,9 +147,9 @@ TEST(PdrMethod, NeedsNoScansToBeOk) {
   EXPECT_EQ(pdr->state_at(at_s(200.0), *belief), core::FixState::kOk);
 }
 
-TEST(FusedMethod, IsTheFusedTracker) {
+TEST(RobustMethod, IsTheFusedTracker) {
   const auto model = tiny_model();
-  const auto fused = make(*model, "fused");
+  const auto fused = make(*model, "fused+fusion=robust");
   fusion::FusedTracker tracker(model->site(), tiny_options().fused, std::nullopt);
   walk(*fused);
   walk(tracker);
@@ -157,22 +159,39 @@ TEST(FusedMethod, IsTheFusedTracker) {
   EXPECT_EQ(fused->state_at(at_s(20.2), belief), tracker.state_at(at_s(20.2), belief));
 }
 
-TEST(FixedLagMethod, IsTheFixedLagTrackerOfItsLag) {
-  const auto model = tiny_model();
-  const auto lagging = make(*model, "smoothed_lag10");
-  smoothing::FixedLagTracker tracker(model->site(), tiny_options().fused, std::nullopt,
-                                     std::chrono::seconds(10));
-  walk(*lagging);
+/// What the method says at these times is what the tracker says.
+template <typename Tracker>
+void expect_alike(const char* method, Tracker tracker, const Model& model,
+                  std::initializer_list<double> times_s) {
+  const auto estimator = make(model, method);
+  walk(*estimator);
   walk(tracker);
-  for (const double time_s : {10.0, 14.3, 20.0, 21.0}) {
+  for (const double time_s : times_s) {
     ASSERT_TRUE(tracker.belief_at(at_s(time_s)));
-    EXPECT_EQ(lagging->belief_at(at_s(time_s)), tracker.belief_at(at_s(time_s)));
+    EXPECT_EQ(estimator->belief_at(at_s(time_s)), tracker.belief_at(at_s(time_s))) << time_s;
   }
 }
 
-TEST(WholeTrackMethod, IsTheTrackSmoother) {
+TEST(ParticleMethods, AreTheirTrackers) {
   const auto model = tiny_model();
-  const auto whole = make(*model, "smoothed");
+  const fusion::ParticleTracker::Options options = tiny_options().tracker_options();
+  expect_alike("fused",
+               fusion::ParticleTracker(model->site(), model->walkability(), options, std::nullopt),
+               *model, {20.2, 21.0});
+  expect_alike("smoothed_lag10",
+               smoothing::FixedLagParticles(model->site(), model->walkability(), options,
+                                            std::nullopt, std::chrono::seconds(10)),
+               *model, {10.0, 14.3, 20.0, 21.0});
+  expect_alike(
+      "smoothed",
+      smoothing::ParticleSmoother(model->site(), model->walkability(),
+                                  tiny_options().particle_smoothing_options(), std::nullopt),
+      *model, {0.0, 7.7, 20.0});
+}
+
+TEST(RobustWholeMethod, IsTheTrackSmoother) {
+  const auto model = tiny_model();
+  const auto whole = make(*model, "fused+fusion=robust_whole");
   smoothing::TrackSmoother smoother(model->site(), tiny_options().smoothing_options(),
                                     std::nullopt);
   walk(*whole);

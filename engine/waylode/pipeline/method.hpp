@@ -21,7 +21,9 @@ struct Method {
   std::string source;
   std::string needs;
 
-  bool whole_track() const { return recipe.fusion == FusionPart::kWholeTrack; }
+  bool whole_track() const {
+    return recipe.fusion == FusionPart::kWholeTrack || recipe.fusion == FusionPart::kRobustWhole;
+  }
   /// Cannot find a start by itself.
   bool needs_start() const { return recipe.radio == RadioPart::kNone; }
 };

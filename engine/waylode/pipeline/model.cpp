@@ -29,7 +29,9 @@ struct Model::Shared {
   std::optional<radio::ReferenceMap> references;
   std::map<RadioPart, PositionerPtr> positioners;
   PositionerPtr near;
+  std::optional<radio::PlaceLikelihood> places;
   std::shared_ptr<const std::vector<magnetic::FieldGrid>> fields;
+  std::shared_ptr<const std::vector<site::Walkability>> walkability;
 
   core::Result<const radio::ReferenceMap*> reference_map(const Model& model) {
     if (!references) {
@@ -129,6 +131,28 @@ const radio::HotspotClassifier& Model::hotspots() const {
 core::Result<const radio::ReferenceMap*> Model::reference_map() const {
   const std::scoped_lock lock(shared_->mutex);
   return shared_->reference_map(*this);
+}
+
+core::Result<const radio::PlaceLikelihood*> Model::places() const {
+  const std::scoped_lock lock(shared_->mutex);
+  if (!shared_->places) {
+    auto made = radio::PlaceLikelihood::create(matcher_, options_.places);
+    if (!made) return tl::unexpected(made.error());
+    shared_->places = *std::move(made);
+  }
+  return &*shared_->places;
+}
+
+std::shared_ptr<const std::vector<site::Walkability>> Model::walkability() const {
+  const std::scoped_lock lock(shared_->mutex);
+  if (!shared_->walkability) {
+    std::vector<site::Walkability> made;
+    for (const site::Floor& floor : site_->floors()) {
+      made.emplace_back(floor.plan, floor.bounds, options_.walkability);
+    }
+    shared_->walkability = std::make_shared<const std::vector<site::Walkability>>(std::move(made));
+  }
+  return shared_->walkability;
 }
 
 core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> Model::fields() const {

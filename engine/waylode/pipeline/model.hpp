@@ -11,9 +11,11 @@
 #include "waylode/pipeline/options.hpp"
 #include "waylode/radio/hotspot_classifier.hpp"
 #include "waylode/radio/matcher.hpp"
+#include "waylode/radio/place_likelihood.hpp"
 #include "waylode/radio/positioner.hpp"
 #include "waylode/radio/reference_map.hpp"
 #include "waylode/site/site.hpp"
+#include "waylode/site/walkability.hpp"
 
 namespace waylode::pipeline {
 
@@ -44,6 +46,10 @@ class Model {
   const radio::HotspotClassifier& hotspots() const;
   /// The map gathered to reference points; lives as long as the model.
   core::Result<const radio::ReferenceMap*> reference_map() const;
+  /// How scans fit every place; lives as long as the model.
+  core::Result<const radio::PlaceLikelihood*> places() const;
+  /// Per floor: where people can be, by its plan.
+  std::shared_ptr<const std::vector<site::Walkability>> walkability() const;
   /// Per floor. kMapMissing without a magnetic map.
   core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> fields() const;
 

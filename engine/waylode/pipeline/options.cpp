@@ -12,11 +12,27 @@ fusion::FeedbackTracker::Options Options::several_starts() {
 }
 
 core::Result<void> Options::validate() const {
-  for (const core::Result<void>& part :
-       {scan.validate(), matcher.validate(), wknn.validate(), references.validate(), knn.validate(),
-        region.validate(), window.validate(), circle.validate(), regression.validate(),
-        field.grid.validate(), field.sequence.validate(), decision.validate(), interval.validate(),
-        feedback.validate(), survey_options().validate(), smoothing_options().validate()}) {
+  for (const core::Result<void>& part : {scan.validate(),
+                                         matcher.validate(),
+                                         wknn.validate(),
+                                         references.validate(),
+                                         knn.validate(),
+                                         region.validate(),
+                                         window.validate(),
+                                         circle.validate(),
+                                         regression.validate(),
+                                         field.grid.validate(),
+                                         field.sequence.validate(),
+                                         decision.validate(),
+                                         pressure.validate(),
+                                         interval.validate(),
+                                         feedback.validate(),
+                                         survey_options().validate(),
+                                         smoothing_options().validate(),
+                                         places.validate(),
+                                         response.validate(),
+                                         walkability.validate(),
+                                         particle_smoothing_options().validate()}) {
     if (!part) return part;
   }
   if (!(field.interval_s >= 0.0)) {

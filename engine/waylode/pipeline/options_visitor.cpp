@@ -60,6 +60,70 @@ void visit_radio(Options& options, const Visit& visit) {
               "A match this young has not aged.");
 }
 
+void visit_places(radio::PlaceLikelihood::Options& places, const Visit& visit) {
+  radio::SignalField::Options& signal = places.signal;
+  Table("places", visit)
+      .number("candidates", places.candidates, 1, 500, "Fingerprints that resemble a scan most.")
+      .number("distance_scale", places.distance_scale, kAboveZero, kHuge,
+              "A candidate counts exp(-(distance - least) / this).")
+      .number("candidate_sigma_m", places.candidate_sigma_m, kAboveZero, kHuge,
+              "Standard deviation of the kernel about each candidate.")
+      .number("elsewhere_share", places.elsewhere_share, 0.000001, 0.999,
+              "Of the candidates' likelihood, what is spread over the whole floor.")
+      .number("candidates_weight", places.candidates_weight, 0.0, kHuge,
+              "Power on the candidates' likelihood.")
+      .number("signal_weight", places.signal_weight, 0.0, kHuge,
+              "Power on the signal field's likelihood; 0 does without it.")
+      .number("floor_window", places.floor_window, 0.0, kHuge,
+              "Floors less likely by this much, as a logarithm, are not looked at.");
+  Table("places.signal", visit)
+      .number("node_m", signal.node_m, 0.5, 20.0, "Between the nodes of the raster.")
+      .number("margin_m", signal.margin_m, 0.0, 200.0, "Raster around the survey.")
+      .number("kernel_m", signal.kernel_m, kAboveZero, 50.0, "Sigma of the survey's kernel.")
+      .number("fade_m", signal.fade_m, kAboveZero, 1000.0,
+              "Distance from the survey over which doubt sets in.")
+      .number("prior_weight", signal.prior_weight, kAboveZero, kHuge,
+              "The path loss counts as this many fingerprints.")
+      .number("prior_sigma_db", signal.prior_sigma_db, kAboveZero, kHuge, "Error of the path loss.")
+      .number("min_sigma_db", signal.min_sigma_db, kAboveZero, kHuge,
+              "What a moving phone's reading scatters at least.")
+      .number("hearing_dbm", signal.hearing_dbm, -127.5, 0.0,
+              "Expected strength that half of the scans hear.")
+      .number("hearing_scale_db", signal.hearing_scale_db, kAboveZero, kHuge,
+              "Over which hearing sets in.")
+      .number("surprise_ratio", signal.surprise_ratio, kAboveZero, 0.2,
+              "Probability of hearing what is not to be heard, or the reverse.")
+      .number("effective_transmitters", signal.effective_transmitters, kAboveZero, kHuge,
+              "A scan tells as much as this many independent transmitters.")
+      .number("age_decay_per_s", signal.age_decay_per_s, kAboveZero, 1.0,
+              "A reading's weight fades by this factor per second of age beyond one.");
+}
+
+void visit_response(radio::DeviceResponse::Options& response, const Visit& visit) {
+  Table("response", visit)
+      .number("prior_sigma_db", response.prior_sigma_db, kAboveZero, kHuge,
+              "How much phones differ in what they hear; near 0 takes all for alike.")
+      .number("scan_sigma_db", response.scan_sigma_db, kAboveZero, kHuge,
+              "By which a whole scan errs: body, wrong place.")
+      .number("drift_db", response.drift_db, 0.0, kHuge, "Random walk from scan to scan.")
+      .number("feigned_db", response.feigned_db, 0.0, kHuge,
+              "Only what exceeds it is taken from the readings.")
+      .number("huber", response.huber, kAboveZero, kHuge,
+              "Readings off by more sigmas pull no harder.")
+      .number("min_readings", response.min_readings, 1, 10000,
+              "Scans with fewer readings are passed over.");
+}
+
+void visit_plan(site::Walkability::Options& plan, const Visit& visit) {
+  Table("plan", visit)
+      .number("cell_m", plan.cell_m, 0.05, 2.0, "Of the raster of areas.")
+      .number("softness_m", plan.softness_m, 0.05, 10.0,
+              "Depth in an obstacle that costs 0.5; more where plans are less exact.")
+      .number("wall_penalty", plan.wall_penalty, 0.0, 100.0, "For crossing walls in one step.")
+      .number("max_penalty", plan.max_penalty, 0.0, 100.0,
+              "A step never costs more; 0 ignores the plan.");
+}
+
 void visit_heading(pdr::HeadingFilter::Options& heading, const Visit& visit) {
   Table("pdr.heading", visit)
       .number("initial_sigma_rad", heading.initial_sigma_rad, kAboveZero, kHuge,
@@ -84,6 +148,24 @@ void visit_pdr(Options& options, const Visit& visit) {
               "Sway and drift of the heading from one step to the next.")
       .number("step_length_sigma_ratio", options.pdr.step_length_sigma_ratio, kAboveZero, kHuge,
               "Variation of steps around the person's mean.");
+  pdr::PressureClimb::Options& pressure = options.pressure;
+  Table("pdr.pressure", visit)
+      .number("averaging_s", pressure.averaging_s, kAboveZero, 10.0,
+              "Air pressure is averaged over this long.")
+      .number("drift_tau_s", pressure.drift_tau_s, kAboveZero, kHuge,
+              "The height at rest follows what is measured this slowly, for the weather's sake.")
+      .number("certain_climb_m", pressure.certain_climb_m, kAboveZero, 100.0,
+              "This far off the height at rest, it is a climb.")
+      .number("report_step_m", pressure.report_step_m, kAboveZero, 100.0,
+              "A climb moves the floor again when it has gone this far on.")
+      .number("least_rise_s", pressure.least_rise_s, 0.0, 60.0,
+              "Most of a certain climb in less time are a jump of the pressure, as of a door.")
+      .number("rest_s", pressure.rest_s, kAboveZero, 600.0, "A climb has ended when this long ...")
+      .number("rest_band_m", pressure.rest_band_m, kAboveZero, 100.0,
+              "... all heights lie within this of each other.")
+      .number("sigma_m", pressure.sigma_m, kAboveZero, 100.0, "Error of a climb.")
+      .number("longest_gap_s", pressure.longest_gap_s, kAboveZero, kHuge,
+              "After a longer gap in the pressure all starts anew.");
   Table("pdr.gravity", visit)
       .number("accelerometer_tau_s", options.pdr.gravity.accelerometer_tau_s, kAboveZero, 60.0,
               "Longer: less of the walking bounce; shorter: less gyroscope drift.");
@@ -139,6 +221,12 @@ void visit_planar(fusion::PlanarTracker::Options& planar, const Visit& visit) {
 void visit_fused(Options& options, const Visit& visit) {
   visit_planar(options.fused.planar, visit);
   Table("fused.floor", visit)
+      .number("storey_m", options.fused.floor.storey_m, kAboveZero, kHuge,
+              "Usual height of a storey, m; climbs by air pressure are counted in it.")
+      .number("storey_sigma_m", options.fused.floor.storey_sigma_m, kAboveZero, kHuge,
+              "How much storeys differ, m.")
+      .number("false_climb_ratio", options.fused.floor.false_climb_ratio, kAboveZero, 1.0,
+              "Share of climbs by air pressure that are not what they seem.")
       .number("change_probability", options.fused.floor.change_probability, kAboveZero, 0.999,
               "Of leaving the floor between two scans.")
       .number("vote_weight", options.fused.floor.vote_weight, kAboveZero, kHuge,
@@ -156,7 +244,37 @@ void visit_fused(Options& options, const Visit& visit) {
               "With no scan this near in time, a fix is `low_confidence` at best.")
       .number("lost_after_s", options.fused.state.lost_after_s, kAboveZero, kHuge,
               "With no scan this near in time, a fix is `unknown`; not less than stale_after_s.");
+  auto& p = options.particles;
+  Table("particles", visit)
+      .number("particles", p.particles, 50, 100000, "Guesses that one phone costs.")
+      .number("heading_offset_sigma_rad", p.heading_offset_sigma_rad, kAboveZero, kHuge,
+              "How far walking and phone headings may differ at the start.")
+      .number("heading_offset_walk_rad_per_sqrt_step", p.heading_offset_walk_rad_per_sqrt_step, 0.0,
+              kHuge, "How fast the heading offset changes.")
+      .number("log_scale_sigma", p.log_scale_sigma, 0.0, kHuge,
+              "Spread of people's step lengths, as a logarithm.")
+      .number("log_scale_walk_per_sqrt_step", p.log_scale_walk_per_sqrt_step, 0.0, kHuge,
+              "How fast a person's step length changes.")
+      .number("position_walk_m_per_sqrt_s", p.position_walk_m_per_sqrt_s, 0.0, kHuge,
+              "Movement that no step tells.")
+      .number("radio_bias_sigma_m", p.radio_bias_sigma_m, 0.0, kHuge,
+              "The part of the radio error that persists from scan to scan.")
+      .number("radio_bias_tau_s", p.radio_bias_tau_s, kAboveZero, kHuge,
+              "How long a radio error persists.")
+      .number("radio_trust", p.radio_trust, kAboveZero, 1.0, "Power on a scan's likelihood.")
+      .number("jump_probability", p.jump_probability, 0.0, 0.999,
+              "That between two scans the belief became void.")
+      .number("resample_ratio", p.resample_ratio, 0.0, 1.0,
+              "Below this share of effective particles they are redrawn.")
+      .number("plan_trust", p.plan_trust, 0.0, kHuge, "Power on the plan's penalty.")
+      .number("base_sigma_m", p.base_sigma_m, kAboveZero, kHuge,
+              "Error per axis that no guess tells of.")
+      .number("sigma_scale", p.sigma_scale, kAboveZero, kHuge,
+              "On the spread of the guesses, so that regions hold.");
   Table("smoothing", visit)
+      .number("particles", options.smoothing_particles, 50, 1000000, "Guesses of a whole track.")
+      .number("horizon_s", options.smoothing_horizon_s, kAboveZero, kHuge,
+              "How much of the future an instant knows at most.")
       .number("rounds", options.smoothing_rounds, 1, 50,
               "Passes over the track; scans are weighed again in each.");
 }
@@ -212,6 +330,9 @@ void for_each_option(Options& options, const Visit& visit) {
   visit_radio(options, visit);
   visit_pdr(options, visit);
   detail::visit_gait_options(options, visit);
+  visit_places(options.places, visit);
+  visit_response(options.response, visit);
+  visit_plan(options.walkability, visit);
   visit_fused(options, visit);
   detail::visit_paper_options(options, visit);
   visit_survey(options, visit);

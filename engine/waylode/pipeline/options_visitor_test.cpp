@@ -47,6 +47,9 @@ Counts expected_radio() {
       {"scan", member_count<radio::ScanAssembler::Options>() + 1},  // And bluetooth_alone_after_s.
       {"matcher", member_count<radio::Matcher::Options>()},
       {"wknn", member_count<radio::WknnEstimator::Options>()},
+      {"places", member_count<radio::PlaceLikelihood::Options>() - 1},  // Less its component.
+      {"response", member_count<radio::DeviceResponse::Options>()},
+      {"places.signal", member_count<radio::SignalField::Options>()},
       {"references",
        member_count<radio::ReferenceMap::Options>() - 1 +  // Less `filter`, which is here too.
            member_count<radio::DomainFilter::Options>()},
@@ -75,6 +78,7 @@ Counts expected_pdr() {
   return {
       // Less ten components and three choices of the recipe.
       {"pdr", member_count<pdr::DeadReckoning::Options>() - 13},
+      {"pdr.pressure", member_count<pdr::PressureClimb::Options>()},
       {"pdr.gravity", member_count<pdr::GravityFilter::Options>()},
       {"pdr.heading", member_count<pdr::HeadingFilter::Options>()},
       {"pdr.compass", member_count<pdr::CompassHeadingFilter::Options>()},
@@ -99,7 +103,11 @@ Counts expected_fusion() {
       {"fused.planar", member_count<fusion::PlanarTracker::Options>()},
       {"fused.floor", member_count<fusion::FloorFilter::Options>()},
       {"fused.state", member_count<fusion::StateRules>()},
-      {"smoothing", member_count<smoothing::TrackSmoother::Options>() - 1},  // Less `fused`.
+      {"particles", member_count<fusion::ParticleFilter::Options>()},
+      // Both smoothers' less their trackers.
+      {"smoothing", member_count<smoothing::TrackSmoother::Options>() - 1 +
+                        member_count<smoothing::ParticleSmoother::Options>() - 1},
+      {"plan", member_count<site::Walkability::Options>()},
       {"decision", member_count<fusion::DecisionFlow::Options>() - 2},  // Less mode and filter.
       {"decision.filter", kFilter},
       // Less the recipe's robust_filter and filter_blend, and four components.
@@ -140,7 +148,7 @@ TEST(ForEachOption, VisitsEveryMemberOfEveryComponent) {
   visited.erase("pdr.stride_laws");
   for (const auto& [table, count] : expected) EXPECT_EQ(visited[table], count) << table;
   EXPECT_EQ(visited.size(), expected.size());
-  EXPECT_EQ(member_count<Options>(), 21U);
+  EXPECT_EQ(member_count<Options>(), 28U);
 }
 
 TEST(ForEachOption, VisitsNothingTwice) {

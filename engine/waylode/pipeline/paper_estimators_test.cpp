@@ -122,7 +122,8 @@ TEST(PaperEstimators, AreMadeForThePapersFusionsAlone) {
   }
   for (const FusionPart part :
        {FusionPart::kNewestScan, FusionPart::kDeadReckoning, FusionPart::kRobust,
-        FusionPart::kFixedLag, FusionPart::kWholeTrack}) {
+        FusionPart::kRobustWhole, FusionPart::kParticles, FusionPart::kFixedLag,
+        FusionPart::kWholeTrack}) {
     EXPECT_EQ(make_paper_estimator(part, plain_model(), {}), nullptr) << static_cast<int>(part);
   }
 }

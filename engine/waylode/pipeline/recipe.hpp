@@ -29,9 +29,11 @@ enum class MagneticPart : std::uint8_t { kNone, kSequence };
 enum class FusionPart : std::uint8_t {
   kNewestScan,
   kDeadReckoning,
-  kRobust,
+  kParticles,
   kFixedLag,
   kWholeTrack,
+  kRobust,
+  kRobustWhole,
   kUnscented,
   kUnscentedWhenLarge,
   kPairs,
@@ -52,8 +54,13 @@ struct Recipe {
   pdr::DeadReckoning::HeadingSource heading = pdr::DeadReckoning::HeadingSource::kRotationVector;
   RadioPart radio = RadioPart::kWknn;
   MagneticPart magnetic = MagneticPart::kNone;
-  FusionPart fusion = FusionPart::kRobust;
+  FusionPart fusion = FusionPart::kParticles;
 
+  /// Whether scans are weighed place by place.
+  bool weighs_places() const {
+    return fusion == FusionPart::kParticles || fusion == FusionPart::kFixedLag ||
+           fusion == FusionPart::kWholeTrack;
+  }
   bool operator==(const Recipe&) const = default;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "waylode/pdr/dead_reckoning.hpp"
+#include "waylode/pdr/pressure_climb.hpp"
 #include "waylode/pipeline/estimator.hpp"
 #include "waylode/pipeline/field_matching.hpp"
 #include "waylode/pipeline/stride_learning.hpp"
@@ -67,27 +68,40 @@ struct Session::Pipeline {
   Method method;
   SessionOptions options;
   pdr::DeadReckoning reckoning;
+  pdr::PressureClimb pressure;
   radio::ScanAssembler assembler;
   HeardScans heard;
   radio::WknnEstimator foreign;                         ///< Tells scans of elsewhere.
   std::shared_ptr<const radio::Positioner> positioner;  ///< None: the method has no radio.
+  const radio::PlaceLikelihood* places;                 ///< Null: the method has no use for it.
+  radio::DeviceResponse response;                       ///< With `places`.
   std::optional<StrideLearning> learning;               ///< None: the stride has no gains to learn.
   std::unique_ptr<FieldMatching> field;  ///< None: the method has no use for the field.
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
   std::optional<core::DeviceTime> quiet_since;  ///< No scan, and no try with Bluetooth alone.
 
-  void hear(const radio::Query& query) {
+  void hear(const radio::Query& heard_query) {
     if (!positioner) return;
-    const auto placed = positioner->estimate(query, options.known_floor, std::nullopt);
+    const radio::Query query = places != nullptr ? response.applied(heard_query) : heard_query;
+    auto placed = positioner->estimate(query, options.known_floor, std::nullopt);
     if (!placed) {
       if (foreign.is_foreign(query)) estimator->hear_unknown(query.delivered);
       return;
     }
     heard.add(query);
+    if (places != nullptr) {
+      places->add_rasters(query, placed->observation);
+      learn_response(heard_query, placed->observation.floors.front());
+    }
     if (learning) learning->add(placed->observation);
     estimator->add(placed->observation, heard);
     last_scan = query.delivered;
+  }
+
+  /// How much louder this phone hears than the survey's, by what it should hear where it is.
+  void learn_response(const radio::Query& query, const observation::FloorHypothesis& likeliest) {
+    response.update(places->residuals(query, likeliest.floor, likeliest.position_m));
   }
 
   /// Advertisements wait for the next Wi-Fi scan; when none comes they are matched by themselves.
@@ -140,6 +154,12 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
     if (!made) return tl::unexpected(made.error());
     positioner = *std::move(made);
   }
+  const radio::PlaceLikelihood* places = nullptr;
+  if (recipe.weighs_places()) {
+    const auto made = model->places();
+    if (!made) return tl::unexpected(made.error());
+    places = *made;
+  }
   std::unique_ptr<FieldMatching> field;
   if (recipe.magnetic != MagneticPart::kNone) {
     auto fields = model->fields();
@@ -156,10 +176,11 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
   const bool drops_hotspots = positioner && recipe.radio != RadioPart::kWknn;
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
       model, method, options, pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
+      pdr::PressureClimb(tunables.pressure),
       radio::ScanAssembler(tunables.scan, drops_hotspots ? &model->hotspots() : nullptr),
       HeardScans(*model), radio::WknnEstimator(model->matcher(), tunables.wknn),
-      std::move(positioner), std::move(learning), std::move(field),
-      make_estimator(*model, method, options), std::nullopt, std::nullopt});
+      std::move(positioner), places, radio::DeviceResponse(tunables.response), std::move(learning),
+      std::move(field), make_estimator(*model, method, options), std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 
@@ -168,6 +189,9 @@ void Session::push(const sample::Sample& sample) {
     pipeline_->hear(pipeline_->assembler.assemble(*scan));
   } else if (const auto* advertisement = std::get_if<sample::BleReading>(&sample)) {
     pipeline_->hear(*advertisement);
+  } else if (const auto* pressure = std::get_if<sample::BarometerSample>(&sample)) {
+    const auto climb = pipeline_->pressure.add(*pressure);
+    if (climb) pipeline_->estimator->add(*climb);
   } else {
     pipeline_->move(sample);
   }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <span>
+#include <utility>
 
 #include "waylode/smoothing/rts_smoother.hpp"
 
@@ -13,24 +15,44 @@ namespace {
 
 using observation::MotionDelta;
 using observation::RadioObservation;
+using observation::VerticalMotion;
 
 core::DeviceTime time_of(const Event& event) {
   if (const auto* motion = std::get_if<MotionDelta>(&event)) return motion->begin;
+  if (const auto* climb = std::get_if<VerticalMotion>(&event)) return climb->end;
   return std::get<RadioObservation>(event).delivered;
 }
 
+using Fits = std::vector<std::vector<double>>;
+
+/// A scan's votes, and the climbs between the scan before and it, by floor from and floor to.
+struct ChainLink {
+  std::vector<double> log_likelihoods;
+  std::vector<Fits> climbs;
+};
+
+Fits transposed(const Fits& fits) {
+  Fits result = fits;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    for (std::size_t j = 0; j < fits.size(); ++j) result[i][j] = fits[j][i];
+  }
+  return result;
+}
+
 /// Forward-backward over the chain of floors: the posterior of each scan given all of them.
-std::vector<std::vector<double>> smooth_chain(
-    const std::vector<std::vector<double>>& log_likelihoods, double change_probability) {
-  const std::size_t count = log_likelihoods.front().size();
+std::vector<std::vector<double>> smooth_chain(const std::vector<ChainLink>& links,
+                                              double change_probability) {
+  const std::size_t count = links.front().log_likelihoods.size();
   const std::vector<double> uniform(count, 1.0 / static_cast<double>(count));
   std::vector<std::vector<double>> posterior;
-  for (const auto& scan : log_likelihoods) {
-    posterior.push_back(fusion::advance_floor_chain(posterior.empty() ? uniform : posterior.back(),
-                                                    scan, change_probability));
+  for (const ChainLink& link : links) {
+    std::vector<double> before = posterior.empty() ? uniform : posterior.back();
+    for (const Fits& fits : link.climbs) before = fusion::climb_floor_chain(before, fits);
+    posterior.push_back(
+        fusion::advance_floor_chain(before, link.log_likelihoods, change_probability));
   }
-  std::vector<double> future = uniform;  // Likelihood of the scans still to come, per floor.
-  for (std::size_t i = log_likelihoods.size(); i-- > 0;) {
+  std::vector<double> future = uniform;  // Likelihood of what is still to come, per floor.
+  for (std::size_t i = links.size(); i-- > 0;) {
     double total = 0.0;
     for (std::size_t floor = 0; floor < count; ++floor) {
       posterior[i][floor] *= future[floor];
@@ -38,12 +60,51 @@ std::vector<std::vector<double>> smooth_chain(
     }
     for (double& value : posterior[i]) value /= total;
     const std::vector<double> with_scan =
-        fusion::advance_floor_chain(future, log_likelihoods[i], 0.0);
+        fusion::advance_floor_chain(future, links[i].log_likelihoods, 0.0);
     // The chain is symmetric, so the step back is the step forward without a vote.
     future =
         fusion::advance_floor_chain(with_scan, std::vector<double>(count, 0.0), change_probability);
+    for (const Fits& fits : std::views::reverse(links[i].climbs)) {
+      future = fusion::climb_floor_chain(future, transposed(fits));
+    }
   }
   return posterior;
+}
+
+/// The newest report of each climb, where its first one came.
+std::vector<std::pair<std::size_t, VerticalMotion>> climbs_of(const std::vector<Event>& events) {
+  std::vector<std::pair<std::size_t, VerticalMotion>> climbs;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const auto* climb = std::get_if<VerticalMotion>(&events[i]);
+    if (climb == nullptr) continue;
+    if (climbs.empty() || climbs.back().second.begin != climb->begin) {
+      climbs.emplace_back(i, *climb);
+    } else {
+      climbs.back().second = *climb;
+    }
+  }
+  return climbs;
+}
+
+std::vector<ChainLink> links_of(const std::vector<Event>& events, const std::vector<int>& levels,
+                                const fusion::FloorFilter::Options& options) {
+  const auto climbs = climbs_of(events);
+  auto next = climbs.begin();
+  std::vector<ChainLink> links;
+  ChainLink link;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (next != climbs.end() && next->first == i) {
+      // Before the first scan a climb tells nothing: all floors are alike.
+      if (!links.empty()) link.climbs.push_back(fusion::climb_fits(levels, next->second, options));
+      ++next;
+    }
+    const auto* scan = std::get_if<RadioObservation>(&events[i]);
+    if (scan == nullptr) continue;
+    link.log_likelihoods =
+        fusion::FloorFilter::weighted_log_likelihoods(*scan, levels.size(), options);
+    links.push_back(std::exchange(link, {}));
+  }
+  return links;
 }
 
 /// Where the first scan that knows its floor puts the phone, site frame.
@@ -63,6 +124,27 @@ std::optional<core::Vector2> first_position(const site::Site& site,
 }
 
 }  // namespace
+
+std::vector<FloorAt> smooth_floors(const std::vector<Event>& events,
+                                   std::optional<core::FloorId> known_floor,
+                                   const std::vector<int>& levels,
+                                   const fusion::FloorFilter::Options& options) {
+  std::vector<FloorAt> floors;
+  for (const Event& event : events) {
+    const auto* scan = std::get_if<RadioObservation>(&event);
+    if (scan == nullptr) continue;
+    floors.push_back({scan->delivered, known_floor.value_or(core::FloorId{}), 1.0});
+  }
+  if (known_floor || floors.empty()) return floors;
+  const auto posterior =
+      smooth_chain(links_of(events, levels, options), options.change_probability);
+  for (std::size_t i = 0; i < floors.size(); ++i) {
+    const auto best = std::ranges::max_element(posterior[i]);
+    floors[i].floor = {static_cast<std::uint16_t>(best - posterior[i].begin())};
+    floors[i].probability = *best;
+  }
+  return floors;
+}
 
 core::Result<void> TrackSmoother::Options::validate() const {
   if (rounds < 1 || rounds > 50) {
@@ -101,30 +183,11 @@ core::FixState TrackSmoother::state_at(core::DeviceTime time, const core::Belief
 const TrackSmoother::Solution& TrackSmoother::solution() const {
   if (!solution_) {
     solution_.emplace();
-    solution_->floors = smooth_floors();
+    solution_->floors =
+        smooth_floors(events_, known_floor_, fusion::levels_of(*site_), options_.fused.floor);
     if (!solution_->floors.empty()) solution_->nodes = smooth_path(solution_->floors);
   }
   return *solution_;
-}
-
-std::vector<TrackSmoother::FloorAt> TrackSmoother::smooth_floors() const {
-  std::vector<FloorAt> floors;
-  std::vector<std::vector<double>> log_likelihoods;
-  for (const Event& event : events_) {
-    const auto* scan = std::get_if<RadioObservation>(&event);
-    if (scan == nullptr) continue;
-    floors.push_back({scan->delivered, known_floor_.value_or(core::FloorId{}), 1.0});
-    log_likelihoods.push_back(fusion::FloorFilter::weighted_log_likelihoods(
-        *scan, site_->floors().size(), options_.fused.floor));
-  }
-  if (known_floor_ || floors.empty()) return floors;
-  const auto posterior = smooth_chain(log_likelihoods, options_.fused.floor.change_probability);
-  for (std::size_t i = 0; i < floors.size(); ++i) {
-    const auto best = std::ranges::max_element(posterior[i]);
-    floors[i].floor = {static_cast<std::uint16_t>(best - posterior[i].begin())};
-    floors[i].probability = *best;
-  }
-  return floors;
 }
 
 std::vector<fusion::PlanarState> TrackSmoother::smooth_path(
@@ -147,6 +210,7 @@ std::vector<fusion::PlanarState> TrackSmoother::smooth_path(
         tracker.add(fusion::on_site_frame(*motion, floor));
         continue;
       }
+      if (std::holds_alternative<VerticalMotion>(event)) continue;
       const auto& scan = std::get<RadioObservation>(event);
       const auto* hypothesis = fusion::find_hypothesis(scan, floors[scan_index].floor);
       if (hypothesis != nullptr) {
@@ -165,44 +229,6 @@ std::vector<fusion::PlanarState> TrackSmoother::smooth_path(
     }
   }
   return nodes;
-}
-
-FixedLagTracker::FixedLagTracker(std::shared_ptr<const site::Site> site,
-                                 const fusion::FusedTracker::Options& options,
-                                 std::optional<core::FloorId> known_floor, core::Duration lag)
-    : site_(site),
-      tracker_(std::move(site), options, known_floor, /*keep_history=*/true),
-      lag_(lag),
-      rules_(options.state) {}
-
-void FixedLagTracker::add(const Event& event) {
-  std::visit([this](const auto& value) { tracker_.add(value); }, event);
-  if (const auto* scan = std::get_if<RadioObservation>(&event)) {
-    keep({scan->delivered, scan->known_share_ratio});
-  }
-  constexpr core::Duration kMargin = std::chrono::seconds(5);
-  tracker_.planar().forget_before(tracker_.planar().state().time - lag_ - kMargin);
-}
-
-void FixedLagTracker::hear_unknown(core::DeviceTime delivered) { keep({delivered, 0.0}); }
-
-void FixedLagTracker::keep(const fusion::HeardScan& scan) {
-  const auto needed =
-      std::ranges::lower_bound(scans_, scan.delivered - lag_, {}, &fusion::HeardScan::delivered);
-  if (needed != scans_.begin()) scans_.erase(scans_.begin(), std::prev(needed));
-  scans_.push_back(scan);
-}
-
-core::FixState FixedLagTracker::state_at(core::DeviceTime time, const core::Belief& belief) const {
-  return fusion::state_of(belief, time, fusion::nearest_scan(scans_, time), rules_);
-}
-
-std::optional<core::Belief> FixedLagTracker::belief_at(core::DeviceTime time) const {
-  const fusion::PlanarTracker& planar = tracker_.planar();
-  if (!planar.started() || time >= planar.state().time) return tracker_.belief_at(time);
-  const auto nodes = smooth_backward(planar.history(), planar.state());
-  return fusion::to_floor_frame(*site_, *tracker_.floor(), tracker_.floor_probability(),
-                                interpolate(nodes, time));
 }
 
 }  // namespace waylode::smoothing

@@ -13,7 +13,22 @@
 
 namespace waylode::smoothing {
 
-using Event = std::variant<observation::MotionDelta, observation::RadioObservation>;
+using Event = std::variant<observation::MotionDelta, observation::RadioObservation,
+                           observation::VerticalMotion>;
+
+/// The floor around a scan.
+struct FloorAt {
+  core::DeviceTime time;
+  core::FloorId floor;
+  double probability = 1.0;
+};
+
+/// The floor at each scan given all of them and the climbs, or the known one. `levels` as in
+/// fusion::FloorFilter.
+std::vector<FloorAt> smooth_floors(const std::vector<Event>& events,
+                                   std::optional<core::FloorId> known_floor,
+                                   const std::vector<int>& levels,
+                                   const fusion::FloorFilter::Options& options);
 
 /// The fused tracker run over a whole track, forwards and back, so that each instant knows the
 /// future as well. Scans are weighed again each round, by what the smoothed track makes of them.
@@ -39,18 +54,12 @@ class TrackSmoother {
   core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
 
  private:
-  struct FloorAt {
-    core::DeviceTime time;
-    core::FloorId floor;
-    double probability = 1.0;
-  };
   struct Solution {
     std::vector<fusion::PlanarState> nodes;
     std::vector<FloorAt> floors;  ///< Per scan.
   };
 
   const Solution& solution() const;
-  std::vector<FloorAt> smooth_floors() const;
   std::vector<fusion::PlanarState> smooth_path(const std::vector<FloorAt>& floors) const;
 
   std::shared_ptr<const site::Site> site_;
@@ -59,31 +68,6 @@ class TrackSmoother {
   std::vector<Event> events_;
   std::vector<fusion::HeardScan> scans_;
   mutable std::optional<Solution> solution_;  ///< Cache; emptied by add().
-};
-
-/// The same idea for live use: answers `lag` late, from the history of the causal tracker.
-class FixedLagTracker {
- public:
-  FixedLagTracker(std::shared_ptr<const site::Site> site,
-                  const fusion::FusedTracker::Options& options,
-                  std::optional<core::FloorId> known_floor, core::Duration lag);
-
-  void add(const Event& event);
-  /// As of the whole track.
-  void hear_unknown(core::DeviceTime delivered);
-  /// `time` not before the newest event less the lag.
-  std::optional<core::Belief> belief_at(core::DeviceTime time) const;
-  /// For a belief of belief_at(time), by the scan nearest in time.
-  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
-
- private:
-  void keep(const fusion::HeardScan& scan);
-
-  std::shared_ptr<const site::Site> site_;
-  fusion::FusedTracker tracker_;
-  core::Duration lag_;
-  fusion::StateRules rules_;
-  std::vector<fusion::HeardScan> scans_;  ///< As far back as the lag reaches, and one before.
 };
 
 }  // namespace waylode::smoothing

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "waylode/core/rng.hpp"
 #include "waylode/fusion/testing/fused_fixture.hpp"
 
 namespace waylode::smoothing {
@@ -22,100 +21,11 @@ using fusion::testing::Heard;
 using fusion::testing::step_of;
 using fusion::testing::three_floor_site;
 
-constexpr std::optional<FloorId> kKnownFloor = FloorId{2};
-
 TrackSmoother::Options smoother_options(int rounds = 3) {
   TrackSmoother::Options options;
   options.fused = fused_options();
   options.rounds = rounds;
   return options;
-}
-
-/// A scan, then half a second steps with a scan, some of them late, every third second.
-std::vector<Event> noisy_walk(int seconds, std::uint64_t seed) {
-  core::Rng rng(seed);
-  std::vector<Event> events = {heard(0.0, {{2, 0.0, {5.0, 5.0}}})};
-  Vector2 place_m(5.0, 5.0);
-  for (int i = 0; i < 2 * seconds; ++i) {
-    const double heading_rad = 0.03 * i;
-    place_m += 0.7 * Vector2(std::cos(heading_rad), std::sin(heading_rad));
-    events.emplace_back(step_of(0.5 * i, 0.5 * (i + 1), 0.7, heading_rad + 0.1));
-    if (i % 6 != 5) continue;
-    const Vector2 noise_m(rng.normal(0.0, 4.0), rng.normal(0.0, 4.0));
-    events.emplace_back(
-        heard(0.5 * (i + 1), {{2, 0.0, place_m + noise_m}}, 1.0, rng.uniform(0.0, 1.5)));
-  }
-  return events;
-}
-
-void expect_same(const std::optional<core::Belief>& a, const std::optional<core::Belief>& b,
-                 double tolerance) {
-  ASSERT_TRUE(a && b);
-  EXPECT_EQ(a->floor, b->floor);
-  EXPECT_NEAR(a->floor_probability, b->floor_probability, tolerance);
-  EXPECT_LE((a->position_m - b->position_m).norm(), tolerance);
-  EXPECT_LE((a->covariance_m2 - b->covariance_m2).norm(), tolerance);
-}
-
-TEST(FixedLagTracker, EqualsTheWholeTrackWhenTheLagCoversIt) {
-  TrackSmoother whole(three_floor_site(), smoother_options(), kKnownFloor);
-  FixedLagTracker lagging(three_floor_site(), fused_options(), kKnownFloor,
-                          std::chrono::seconds(100));
-  for (const Event& event : noisy_walk(60, 4)) {
-    whole.add(event);
-    lagging.add(event);
-  }
-  for (const double time_s : {0.0, 0.7, 13.0, 30.25, 44.4, 59.75}) {
-    expect_same(lagging.belief_at(at_s(time_s)), whole.belief_at(at_s(time_s)), 1e-8);
-  }
-}
-
-TEST(FixedLagTracker, EqualsTheCausalTrackerForTheNewestInstant) {
-  fusion::FusedTracker causal(three_floor_site(), fused_options(), std::nullopt);
-  FixedLagTracker lagging(three_floor_site(), fused_options(), std::nullopt,
-                          std::chrono::seconds(10));
-  for (const Event& event : noisy_walk(60, 5)) {
-    std::visit([&](const auto& value) { causal.add(value); }, event);
-    lagging.add(event);
-    for (const double later_s : {0.0, 0.2, 5.0}) {
-      const auto time = causal.planar().state().time + core::from_seconds(later_s);
-      expect_same(lagging.belief_at(time), causal.belief_at(time), 0.0);
-    }
-  }
-}
-
-TEST(FixedLagTracker, ForgetsNothingThatItsLagNeeds) {
-  FixedLagTracker forgetful(three_floor_site(), fused_options(), kKnownFloor,
-                            std::chrono::seconds(5));
-  FixedLagTracker mindful(three_floor_site(), fused_options(), kKnownFloor, std::chrono::hours(1));
-  auto events = noisy_walk(60, 6);
-  // A long stand without steps or scans: longer than anything kept.
-  events.emplace_back(heard(100.0, {{2, 0.0, {9.0, 9.0}}}));
-  double newest_s = 0.0;
-  for (const Event& event : events) {
-    forgetful.add(event);
-    mindful.add(event);
-    if (const auto* motion = std::get_if<observation::MotionDelta>(&event)) {
-      newest_s = core::to_seconds(motion->end - at_s(0.0));
-    } else {
-      newest_s =
-          core::to_seconds(std::get<observation::RadioObservation>(event).delivered - at_s(0.0));
-    }
-    for (const double lag_s : {0.1, 2.4, 5.0}) {
-      if (newest_s < lag_s) continue;
-      const auto time = at_s(newest_s - lag_s);
-      expect_same(forgetful.belief_at(time), mindful.belief_at(time), 0.0);
-    }
-  }
-  EXPECT_EQ(newest_s, 100.0);
-}
-
-TEST(FixedLagTracker, HasNoBeliefBeforeAScan) {
-  FixedLagTracker tracker(three_floor_site(), fused_options(), kKnownFloor,
-                          std::chrono::seconds(5));
-  tracker.add(step_of(0.0, 0.5, 0.7, 0.0));
-  EXPECT_EQ(tracker.belief_at(at_s(0.0)), std::nullopt);
-  EXPECT_EQ(tracker.belief_at(at_s(0.5)), std::nullopt);
 }
 
 TEST(TrackSmoother, HasNoBeliefWithoutAScanOfItsFloor) {
@@ -232,6 +142,28 @@ TEST(TrackSmoother, SeesAFloorChangeWhenItHappensNotWhenItIsBelieved) {
   EXPECT_EQ(smoother.belief_at(at_s(20.0))->floor, FloorId{1});
 }
 
+TEST(SmoothFloors, TakesTheNewestReportOfAClimbAsTheWayBetweenScans) {
+  fusion::FloorFilter::Options options;
+  options.storey_m = 4.0;
+  options.storey_sigma_m = 0.1;
+  options.false_climb_ratio = 0.01;
+  options.change_probability = 1e-12;
+  const auto climb = [](double climb_m) {
+    return observation::VerticalMotion{at_s(2.0), at_s(5.0), climb_m, 0.1};
+  };
+  const std::vector<Event> events = {heard(1.0, {{0, 0.0, {5.0, 5.0}}, {1, -2.0, {5.0, 5.0}}}),
+                                     climb(1.8), climb(4.0),
+                                     heard(6.0, {{0, 0.0, {5.0, 5.0}}, {1, 0.0, {5.0, 5.0}}})};
+  const auto floors = smooth_floors(events, std::nullopt, {0, 1}, options);
+  ASSERT_EQ(floors.size(), 2U);
+  // From the lower floor all ways lead on (0.99 up, 0.01 staying), from the upper 0.01 of them.
+  const double wrong = 0.01 * std::exp(-2.0);
+  EXPECT_EQ(floors[0].floor, FloorId{0});
+  EXPECT_NEAR(floors[0].probability, 1.0 / (1.0 + wrong), 1e-9);
+  EXPECT_EQ(floors[1].floor, FloorId{1});
+  EXPECT_NEAR(floors[1].probability, (0.99 + wrong) / (1.0 + wrong), 1e-9);
+}
+
 TEST(TrackSmoother, JudgesTheStateByItsRules) {
   TrackSmoother smoother(three_floor_site(), smoother_options(), FloorId{0});
   smoother.add(heard(0.0, {{0, 0.0, {1.0, 1.0}}}, /*known_share_ratio=*/0.9));
@@ -268,16 +200,6 @@ TEST(TrackSmoother, JudgesByTheShareKnownOfTheNearestScan) {
   const core::Belief belief = *smoother.belief_at(at_s(0.0));
   EXPECT_EQ(smoother.state_at(at_s(1.0), belief), core::FixState::kOutside);
   EXPECT_NE(smoother.state_at(at_s(3.0), belief), core::FixState::kOutside);
-}
-
-TEST(FixedLagTracker, JudgesEachInstantByTheScanNearestInTime) {
-  FixedLagTracker tracker(three_floor_site(), fused_options(), FloorId{0},
-                          std::chrono::seconds(10));
-  leave_after_20_s(tracker);
-  const core::Belief belief = *tracker.belief_at(at_s(20.0));
-  EXPECT_NE(tracker.state_at(at_s(20.0), belief), core::FixState::kOutside);
-  EXPECT_EQ(tracker.state_at(at_s(21.5), belief), core::FixState::kOutside);
-  EXPECT_EQ(tracker.state_at(at_s(30.0), belief), core::FixState::kOutside);
 }
 
 TEST(TrackSmoother, RejectsRoundsOutOfRange) {

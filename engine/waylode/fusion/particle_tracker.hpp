@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Waylode authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "waylode/core/fix.hpp"
+#include "waylode/fusion/floor_filter.hpp"
+#include "waylode/fusion/fused_tracker.hpp"
+#include "waylode/fusion/particle_filter.hpp"
+#include "waylode/observation/observation.hpp"
+#include "waylode/site/site.hpp"
+
+namespace waylode::fusion {
+
+/// The causal tracker: floor by the floor filter, place by particles. One phone, one tracker.
+class ParticleTracker {
+ public:
+  struct Options {
+    ParticleFilter::Options particles;
+    FloorFilter::Options floor;
+    StateRules state;
+
+    core::Result<void> validate() const;
+    bool operator==(const Options&) const = default;
+  };
+
+  ParticleTracker(std::shared_ptr<const site::Site> site,
+                  std::shared_ptr<const std::vector<site::Walkability>> walkability,
+                  const Options& options, std::optional<core::FloorId> known_floor,
+                  bool keep_history = false);
+
+  /// Starts from a place instead of the first scan. Steps that ended by then are passed over.
+  void start(core::DeviceTime time, core::FloorId floor, const core::Vector2& position_m,
+             double sigma_m);
+  void add(const observation::MotionDelta& motion);
+  /// Hypotheses without a raster are passed over.
+  void add(const observation::RadioObservation& observation);
+  void add(const observation::VerticalMotion& motion) { floor_filter_.add(motion); }
+  void hear_unknown(core::DeviceTime delivered) { newest_scan_ = HeardScan{delivered, 0.0}; }
+
+  std::optional<core::Belief> belief_at(core::DeviceTime time) const;
+  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
+
+  /// From outside; then never doubted.
+  void tell_floor(core::FloorId floor) { known_floor_ = floor; }
+  void forget_before(core::DeviceTime time) { particles_.forget_before(time); }
+
+  const ParticleFilter& particles() const { return particles_; }
+  std::optional<core::FloorId> floor() const;
+  double floor_probability() const;
+
+ private:
+  Ground ground(core::FloorId floor) const;
+
+  std::shared_ptr<const site::Site> site_;
+  std::shared_ptr<const std::vector<site::Walkability>> walkability_;
+  Options options_;
+  std::optional<core::FloorId> known_floor_;
+  FloorFilter floor_filter_;
+  ParticleFilter particles_;
+  std::optional<core::DeviceTime> placed_at_;
+  std::optional<HeardScan> newest_scan_;
+};
+
+}  // namespace waylode::fusion
