@@ -4,10 +4,16 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
+
+#include "waylode/core/angle.hpp"
+#include "waylode/core/rng.hpp"
 
 namespace waylode::cli {
 namespace {
@@ -26,19 +32,67 @@ std::optional<core::DeviceTime> first_usable_scan(const std::vector<sample::Samp
   return std::nullopt;
 }
 
+pipeline::StartPose wrong_start(const eval::TruthPoint& start, const WrongStart& wrong,
+                                std::size_t test_number) {
+  core::Rng rng(wrong.seed + test_number);
+  const double direction_rad = rng.uniform(0.0, 2.0 * core::kPi);
+  const core::Vector2 offset_m =
+      wrong.offset_m * core::Vector2(std::cos(direction_rad), std::sin(direction_rad));
+  return {start.time, start.floor, start.position_m + offset_m, wrong.sigma_m};
+}
+
 pipeline::SessionOptions session_options(const TestCase& test, const TestRecording& recording,
-                                         const pipeline::Method& method, bool floor_known) {
+                                         const pipeline::Method& method,
+                                         const EvaluationOptions& evaluation,
+                                         std::size_t test_number) {
   pipeline::SessionOptions options;
-  if (floor_known) options.known_floor = test.floor;
-  if (method.needs_start()) {
-    const eval::TruthPoint& start = recording.truths.front();
+  if (evaluation.floor_known) options.known_floor = test.floor;
+  const eval::TruthPoint& start = recording.truths.front();
+  if (evaluation.wrong_start) {
+    options.start = wrong_start(start, *evaluation.wrong_start, test_number);
+  } else if (method.needs_start()) {
     options.start = pipeline::StartPose{start.time, start.floor, start.position_m, 1.0};
   }
   return options;
 }
 
+bool changes_floor(const std::vector<eval::TruthPoint>& truths) {
+  return std::ranges::any_of(
+      truths, [&](const eval::TruthPoint& truth) { return truth.floor != truths.front().floor; });
+}
+
+/// The truths' instants and, if wanted, those of the path; each says whose it is.
+struct Instants {
+  std::vector<core::DeviceTime> times;  ///< Ascending.
+  std::vector<bool> of_path;            ///< Parallel.
+};
+
+Instants instants_of(const std::vector<eval::TruthPoint>& truths, bool with_path) {
+  constexpr core::Duration kPathPeriod = std::chrono::seconds(1);
+  Instants instants;
+  core::DeviceTime next = truths.front().time;
+  const auto add = [&](core::DeviceTime time, bool of_path) {
+    instants.times.push_back(time);
+    instants.of_path.push_back(of_path);
+  };
+  for (const eval::TruthPoint& truth : truths) {
+    for (; with_path && next <= truth.time; next += kPathPeriod) add(next, true);
+    add(truth.time, false);
+  }
+  return instants;
+}
+
+void deal_fixes(std::vector<core::Fix> fixes, const Instants& instants,
+                eval::EvaluatedTrack& track) {
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    (instants.of_path[i] ? track.path : track.fixes).push_back(std::move(fixes[i]));
+  }
+}
+
 core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRecording& recording,
-                                              const pipeline::Method& method, bool floor_known) {
+                                              const pipeline::Method& method,
+                                              const EvaluationOptions& options,
+                                              std::size_t test_number) {
   eval::EvaluatedTrack track;
   track.name = test.name;
   track.group = test.group;
@@ -50,22 +104,23 @@ core::Result<eval::EvaluatedTrack> run_method(const TestCase& test, const TestRe
   track.walked_s = core::to_seconds(track.truths.back().time - track.truths.front().time);
 
   const std::optional<core::DeviceTime> first_scan = first_usable_scan(recording.samples);
-  std::vector<core::DeviceTime> instants;
   for (eval::TruthPoint& truth : track.truths) {
     truth.scored =
         test.score_all || method.whole_track() || (first_scan && truth.time >= *first_scan);
-    instants.push_back(truth.time);
   }
+  const Instants instants =
+      instants_of(track.truths, options.with_path || changes_floor(track.truths));
   // Dead reckoning was told where it starts.
   if (method.needs_start()) track.truths.front().scored = false;
   // Maps that a method needs are made once for all recordings: no part of what one costs.
   if (auto ready = test.model->prepare(method); !ready) return tl::unexpected(ready.error());
   const double started_s = thread_cpu_s();
-  auto session = pipeline::Session::create(test.model, method,
-                                           session_options(test, recording, method, floor_known));
+  auto session = pipeline::Session::create(
+      test.model, method, session_options(test, recording, method, options, test_number));
   if (!session) return tl::unexpected(session.error());
-  track.fixes = pipeline::replay(*session, method, recording.samples, instants);
+  auto fixes = pipeline::replay(*session, method, recording.samples, instants.times);
   track.cpu_s = thread_cpu_s() - started_s;
+  deal_fixes(std::move(fixes), instants, track);
   return track;
 }
 
@@ -103,10 +158,11 @@ class Evaluation {
  private:
   core::Result<void> run_test(std::size_t i) {
     const TestCase& test = dataset_.tests[i];
-    const core::Result<TestRecording> recording = test.load();
+    core::Result<TestRecording> recording = test.load();
     if (!recording) return tl::unexpected(recording.error());
+    alter(recording->samples, options_.alteration);
     for (std::size_t m = 0; m < options_.methods.size() && i < end_; ++m) {
-      auto track = run_method(test, *recording, options_.methods[m], options_.floor_known);
+      auto track = run_method(test, *recording, options_.methods[m], options_, i);
       if (!track) return tl::unexpected(track.error());
       tracks_[i * options_.methods.size() + m] = *std::move(track);
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/split.hpp"
 #include "waylode/core/log_sink.hpp"
 #include "waylode/core/result.hpp"
 #include "waylode/eval/evaluated_track.hpp"
@@ -34,11 +35,20 @@ struct TestCase {
   std::function<core::Result<TestRecording>()> load;
 };
 
+/// A recording of the training part that was kept aside: its marks may be read by nobody.
+struct UnlabelledRecording {
+  std::string name;
+  std::string group;  ///< As TestCase::group; the site alone where the floor is not told.
+  std::shared_ptr<const pipeline::Model> model;
+  std::function<core::Result<std::vector<sample::Sample>>()> load;  ///< Without marks.
+};
+
 /// Maps built from the training part, and the tests.
 struct Dataset {
   std::string name;
   bool has_covered = false;  ///< The `covered` group exists.
   std::vector<TestCase> tests;
+  std::vector<UnlabelledRecording> unlabelled;  ///< Left out of the maps.
 };
 
 /// What building a data set needs besides its files.
@@ -46,6 +56,7 @@ struct DatasetContext {
   pipeline::Options options;
   core::ProgressSink progress;
   core::LogSink log;  ///< What was left out and why; called by one thread.
+  Dealing dealing{};  ///< For recordings that no split table names.
 };
 
 }  // namespace waylode::cli

@@ -24,6 +24,7 @@ struct FloorFolder {
   fs::path path;
   std::vector<fs::path> train;
   std::vector<fs::path> test;
+  std::vector<fs::path> unlabelled;
   std::vector<MarkedPath> train_paths;
 };
 
@@ -33,12 +34,24 @@ struct SiteFolder {
   std::vector<FloorFolder> floors;
 };
 
+std::vector<fs::path>& logs_of(FloorFolder& floor, Part part) {
+  if (part == Part::kTrain) return floor.train;
+  return part == Part::kTest ? floor.test : floor.unlabelled;
+}
+
+Split of_keys(const Split& split, const std::vector<std::string>& keys) {
+  Split chosen;
+  for (const std::string& key : keys) {
+    if (const auto entry = split.find(key); entry != split.end()) chosen.insert(*entry);
+  }
+  return chosen;
+}
+
 /// Deals the logs of one floor into train and test; keys that have a log go into `found`.
 core::Result<FloorFolder> read_floor_folder(const std::string& site_name, const fs::path& path,
                                             const std::optional<Split>& given_split,
-                                            std::set<std::string>& found) {
-  constexpr std::uint64_t kSplitSeed = 1;
-  FloorFolder floor{path.filename().string(), path, {}, {}, {}};
+                                            const Dealing& dealing, std::set<std::string>& found) {
+  FloorFolder floor{path.filename().string(), path, {}, {}, {}, {}};
   const auto entries = list_folder(path / "path_data_files");
   if (!entries) {
     const bool absent = entries.error().code == core::ErrorCode::kFileNotFound;
@@ -49,11 +62,12 @@ core::Result<FloorFolder> read_floor_folder(const std::string& site_name, const 
   for (const fs::path& log : logs) {
     keys.push_back(site_name + "/" + floor.name + "/" + recording_name(log));
   }
-  const Split split = given_split ? *given_split : random_split(keys, kSplitSeed);
+  Split split = given_split ? of_keys(*given_split, keys) : random_split(keys, dealing);
+  keep_aside(split, dealing);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const auto entry = split.find(keys[i]);
     if (entry == split.end()) continue;
-    (entry->second.part == Part::kTrain ? floor.train : floor.test).push_back(logs[i]);
+    logs_of(floor, entry->second.part).push_back(logs[i]);
     found.insert(keys[i]);
   }
   return floor;
@@ -61,12 +75,12 @@ core::Result<FloorFolder> read_floor_folder(const std::string& site_name, const 
 
 core::Result<SiteFolder> read_site_folder(const fs::path& path,
                                           const std::optional<Split>& given_split,
-                                          std::set<std::string>& found) {
+                                          const Dealing& dealing, std::set<std::string>& found) {
   SiteFolder site{path.filename().string(), path, {}};
   const auto entries = list_folder(path);
   if (!entries) return tl::unexpected(entries.error());
   for (const fs::path& floor_path : entries->folders) {
-    auto floor = read_floor_folder(site.name, floor_path, given_split, found);
+    auto floor = read_floor_folder(site.name, floor_path, given_split, dealing, found);
     if (!floor) return tl::unexpected(floor.error());
     if (!floor->train.empty() || !floor->test.empty()) site.floors.push_back(*std::move(floor));
   }
@@ -76,12 +90,13 @@ core::Result<SiteFolder> read_site_folder(const fs::path& path,
 /// Finds the sites that have tests, with all their floors and logs.
 core::Result<std::vector<SiteFolder>> list_sites(const fs::path& folder,
                                                  const std::optional<Split>& given_split,
+                                                 const Dealing& dealing,
                                                  std::set<std::string>& found) {
   const auto entries = list_folder(folder);
   if (!entries) return tl::unexpected(entries.error());
   std::vector<SiteFolder> sites;
   for (const fs::path& site_path : entries->folders) {
-    auto site = read_site_folder(site_path, given_split, found);
+    auto site = read_site_folder(site_path, given_split, dealing, found);
     if (!site) return tl::unexpected(site.error());
     const bool tested = std::ranges::any_of(
         site->floors, [](const FloorFolder& floor) { return !floor.test.empty(); });
@@ -255,6 +270,18 @@ core::Result<void> add_tests(const SiteFolder& site,
   return {};
 }
 
+void add_unlabelled(const SiteFolder& site, const std::shared_ptr<const pipeline::Model>& model,
+                    Dataset& dataset) {
+  for (std::size_t i = 0; i < site.floors.size(); ++i) {
+    const core::FloorId id{static_cast<std::uint16_t>(i)};
+    for (const fs::path& path : site.floors[i].unlabelled) {
+      dataset.unlabelled.push_back(
+          {recording_name(path), site.name + "/" + site.floors[i].name, model,
+           [path, model, id] { return load_unlabelled_log(path, *model->site(), id); }});
+    }
+  }
+}
+
 }  // namespace
 
 core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
@@ -267,7 +294,7 @@ core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
     split = *std::move(read);
   }
   std::set<std::string> found;
-  auto sites = list_sites(folder, split, found);
+  auto sites = list_sites(folder, split, context.dealing, found);
   if (!sites) return tl::unexpected(sites.error());
   if (split) note_missing(*split, found, *split_path, context.log);
   if (auto trained = check_trained(*sites); !trained) return tl::unexpected(trained.error());
@@ -276,7 +303,7 @@ core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
     for (const FloorFolder& floor : site.floors) total += floor.train.size();
   }
 
-  Dataset dataset{"ilc", true, {}};
+  Dataset dataset{"ilc", true, {}, {}};
   std::size_t done = 0;
   for (SiteFolder& site : *sites) {
     auto model = SiteLoader(site, context).load([&] {
@@ -286,6 +313,7 @@ core::Result<Dataset> load_ilc_dataset(const fs::path& folder,
     if (auto added = add_tests(site, *model, context.log, dataset); !added) {
       return tl::unexpected(added.error());
     }
+    add_unlabelled(site, *model, dataset);
   }
   return dataset;
 }

@@ -55,14 +55,17 @@ class IpinLoader {
       for (const survey::SurveyedRecording& recording : recordings_) {
         names.push_back(recording.name);
       }
-      constexpr std::uint64_t kSplitSeed = 1;
-      split_ = random_split(std::move(names), kSplitSeed);
+      split_ = random_split(std::move(names), context_.dealing);
     }
+    keep_aside(*split_, context_.dealing);
     auto model = build_model();
     if (!model) return tl::unexpected(model.error());
-    Dataset dataset{"ipin", false, {}};
+    Dataset dataset{"ipin", false, {}, {}};
     for (const survey::SurveyedRecording& recording : recordings_) {
-      if (!is_test(recording.name)) continue;
+      if (part_of(recording.name) == Part::kUnlabelled) {
+        add_unlabelled(recording.name, *model, dataset);
+      }
+      if (part_of(recording.name) != Part::kTest) continue;
       // Damage was noted when the log was read for its floors.
       auto test = make_log_test(logs_.at(recording.name), *model, "ipin", {});
       if (!test) return tl::unexpected(test.error());
@@ -72,7 +75,14 @@ class IpinLoader {
   }
 
  private:
-  bool is_test(const std::string& name) const { return split_->at(name).part == Part::kTest; }
+  Part part_of(const std::string& name) const { return split_->at(name).part; }
+
+  void add_unlabelled(const std::string& name, const std::shared_ptr<const pipeline::Model>& model,
+                      Dataset& dataset) const {
+    dataset.unlabelled.push_back({name, "ipin", model, [path = logs_.at(name), model] {
+                                    return load_unlabelled_log(path, *model->site(), std::nullopt);
+                                  }});
+  }
 
   core::Result<void> find_logs() {
     if (split_path_) {
@@ -116,7 +126,7 @@ class IpinLoader {
         continue;
       }
       survey::SurveyedRecording surveyed{name, std::move(recording->samples), std::nullopt};
-      const bool for_marks = split_ && is_test(name);
+      const bool for_marks = split_ && part_of(name) != Part::kTrain;
       recordings_.push_back(for_marks ? marks_only(surveyed) : std::move(surveyed));
     }
     return {};
@@ -132,7 +142,7 @@ class IpinLoader {
     if (!parts) return tl::unexpected(at_folder(parts.error()));
     survey::MapBuilder builder(*std::move(parts), context_.options.survey_options());
     for (const survey::SurveyedRecording& recording : recordings_) {
-      if (!is_test(recording.name)) builder.add(recording);
+      if (part_of(recording.name) == Part::kTrain) builder.add(recording);
     }
     auto built = builder.build();
     if (!built) return tl::unexpected(at_folder(built.error()));

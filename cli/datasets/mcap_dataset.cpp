@@ -11,7 +11,7 @@ core::Result<Dataset> load_log_dataset(std::shared_ptr<const site::Site> site,
                                        const DatasetContext& context) {
   auto model = pipeline::Model::create(site, context.options);
   if (!model) return tl::unexpected(model.error());
-  Dataset dataset{"mcap", false, {}};
+  Dataset dataset{"mcap", false, {}, {}};
   for (const std::filesystem::path& path : logs) {
     auto test = make_log_test(path, *model, site->name(), context.log);
     if (!test) return tl::unexpected(test.error());

@@ -3,6 +3,7 @@
 #include "datasets/split.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "datasets/csv.hpp"
 #include "waylode/core/file.hpp"
@@ -53,6 +54,12 @@ core::Result<void> add_row(const std::filesystem::path& path, const CsvRow& row,
   return {};
 }
 
+void shuffle(std::vector<std::string>& keys, std::uint64_t seed) {
+  std::ranges::sort(keys);
+  core::Rng rng(seed);
+  for (std::size_t i = keys.size(); i > 1; --i) std::swap(keys[i - 1], keys[rng.below(i)]);
+}
+
 }  // namespace
 
 core::Result<Split> read_split(const std::filesystem::path& path,
@@ -83,15 +90,45 @@ core::Result<Split> read_split(const std::filesystem::path& path,
   return split;
 }
 
-Split random_split(std::vector<std::string> keys, std::uint64_t seed) {
-  std::ranges::sort(keys);
-  core::Rng rng(seed);
-  for (std::size_t i = keys.size(); i > 1; --i) std::swap(keys[i - 1], keys[rng.below(i)]);
+core::Result<Fold> parse_fold(const std::string& text) {
+  constexpr std::uint64_t kMostFolds = 1000;
+  Fold fold;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, fold.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, fold.count);
+    if (count.ec == std::errc() && count.ptr == end && fold.number >= 1 &&
+        fold.number <= fold.count && fold.count >= 2 && fold.count <= kMostFolds) {
+      return fold;
+    }
+  }
+  return core::fail(core::ErrorCode::kInvalidArgument,
+                    "'" + text + "' is no fold; write K/N, such as 2/4, with K from 1 to N",
+                    "--fold");
+}
+
+Split random_split(std::vector<std::string> keys, const Dealing& dealing) {
+  shuffle(keys, dealing.seed);
+  const std::size_t begin = (dealing.fold.number - 1) * keys.size() / dealing.fold.count;
+  const std::size_t end = dealing.fold.number * keys.size() / dealing.fold.count;
   Split split;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    split[keys[i]].part = i < keys.size() / 4 ? Part::kTest : Part::kTrain;
+    split[keys[i]].part = i >= begin && i < end ? Part::kTest : Part::kTrain;
   }
   return split;
+}
+
+void keep_aside(Split& split, const Dealing& dealing) {
+  std::vector<std::string> training;
+  for (const auto& [key, entry] : split) {
+    if (entry.part == Part::kTrain) training.push_back(key);
+  }
+  // Another seed than the split's own, so that the two choices do not go together.
+  shuffle(training, dealing.seed ^ 0x756e6c6162656c6cULL);
+  const double wanted = dealing.unlabelled_ratio * static_cast<double>(training.size());
+  for (std::size_t i = 0; i < training.size() && static_cast<double>(i + 1) <= wanted; ++i) {
+    split[training[i]].part = Part::kUnlabelled;
+  }
 }
 
 void note_missing(const Split& split, const std::set<std::string>& found,

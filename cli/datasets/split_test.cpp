@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "test_support.hpp"
 
@@ -102,9 +104,9 @@ TEST_F(SplitTable, MissingLogsAreNotedOnceWithTheFirstByLine) {
 TEST(RandomSplit, TakesAQuarterWhateverTheOrder) {
   std::vector<std::string> keys;
   for (char c = 'a'; c < 'l'; ++c) keys.emplace_back(1, c);  // 11 keys: 2 tests.
-  const Split forward = random_split(keys, 7);
+  const Split forward = random_split(keys, {.seed = 7});
   std::ranges::reverse(keys);
-  const Split backward = random_split(keys, 7);
+  const Split backward = random_split(keys, {.seed = 7});
   int tests = 0;
   for (const auto& [key, entry] : forward) {
     EXPECT_EQ(entry.part, backward.at(key).part);
@@ -112,6 +114,68 @@ TEST(RandomSplit, TakesAQuarterWhateverTheOrder) {
   }
   EXPECT_EQ(forward.size(), 11U);
   EXPECT_EQ(tests, 2);
+}
+
+TEST(RandomSplit, FoldsOfASeedTestEachKeyOnce) {
+  std::vector<std::string> keys;
+  for (char c = 'a'; c < 'l'; ++c) keys.emplace_back(1, c);
+  std::map<std::string, int> tested;
+  std::vector<std::size_t> sizes;
+  for (std::uint64_t number = 1; number <= 3; ++number) {
+    std::size_t size = 0;
+    for (const auto& [key, entry] : random_split(keys, {.seed = 5, .fold = {number, 3}})) {
+      if (entry.part != Part::kTest) continue;
+      ++tested[key];
+      ++size;
+    }
+    sizes.push_back(size);
+  }
+  EXPECT_EQ(tested.size(), 11U);
+  for (const auto& [key, times] : tested) EXPECT_EQ(times, 1) << key;
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{3, 4, 4}));  // Cut at 0, 3.67, 7.33 and 11.
+}
+
+TEST(RandomSplit, SeedsDiffer) {
+  std::vector<std::string> keys;
+  for (int i = 0; i < 40; ++i) keys.push_back(std::to_string(i));
+  const auto tests = [&](std::uint64_t seed) {
+    std::set<std::string> chosen;
+    for (const auto& [key, entry] : random_split(keys, {.seed = seed})) {
+      if (entry.part == Part::kTest) chosen.insert(key);
+    }
+    return chosen;
+  };
+  EXPECT_EQ(tests(1).size(), 10U);
+  EXPECT_NE(tests(1), tests(2));
+}
+
+TEST(KeepAside, TakesItsShareOfTheTrainingPartOnly) {
+  std::vector<std::string> keys;
+  for (int i = 0; i < 20; ++i) keys.push_back(std::to_string(i));
+  const Dealing dealing{.seed = 3, .fold = {1, 4}, .unlabelled_ratio = 0.5};
+  const Split before = random_split(keys, dealing);
+  Split split = before;
+  keep_aside(split, dealing);
+  int aside = 0;
+  for (const auto& [key, entry] : split) {
+    if (entry.part == Part::kUnlabelled) {
+      ++aside;
+      EXPECT_EQ(before.at(key).part, Part::kTrain);
+    } else {
+      EXPECT_EQ(before.at(key).part, entry.part);
+    }
+  }
+  EXPECT_EQ(aside, 7);  // Half of 15, rounded down.
+  Split untouched = before;
+  keep_aside(untouched, {.seed = 3});
+  for (const auto& [key, entry] : untouched) EXPECT_NE(entry.part, Part::kUnlabelled) << key;
+}
+
+TEST(ParseFold, TakesOnlyKOfN) {
+  EXPECT_EQ(parse_fold("2/4").value(), (Fold{2, 4}));
+  for (const char* text : {"", "2", "2/", "/4", "0/4", "5/4", "1/1", "2/4x", "-1/4", "1/2000"}) {
+    EXPECT_FALSE(parse_fold(text)) << text;
+  }
 }
 
 TEST(RecordingName, LosesOnlyTheEndingsOfLogs) {

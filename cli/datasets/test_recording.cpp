@@ -57,6 +57,17 @@ core::Result<TestRecording> load_marked_log(const std::filesystem::path& path,
   return test;
 }
 
+core::Result<std::vector<sample::Sample>> load_unlabelled_log(const std::filesystem::path& path,
+                                                              const site::Site& site,
+                                                              std::optional<core::FloorId> floor) {
+  auto marked = load_marked_log(path, site, floor, {});
+  if (!marked) return tl::unexpected(marked.error());
+  std::erase_if(marked->samples, [](const sample::Sample& sample) {
+    return std::holds_alternative<sample::WaypointSample>(sample);
+  });
+  return std::move(marked->samples);
+}
+
 core::Result<TestCase> make_log_test(const std::filesystem::path& path,
                                      const std::shared_ptr<const pipeline::Model>& model,
                                      const std::string& site_name, const core::LogSink& log) {

@@ -23,6 +23,12 @@ core::Result<TestRecording> load_marked_log(const std::filesystem::path& path,
                                             std::optional<core::FloorId> default_floor,
                                             const core::LogSink& log);
 
+/// Reads a log as one without marks: readings last heard before the first mark are dropped, then
+/// the marks themselves.
+core::Result<std::vector<sample::Sample>> load_unlabelled_log(const std::filesystem::path& path,
+                                                              const site::Site& site,
+                                                              std::optional<core::FloorId> floor);
+
 /// A test whose marks name its floors; reads the log once to know them. A test on a floor without a
 /// radio map is kMapMissing; one without marks is kLogLacksRecords.
 core::Result<TestCase> make_log_test(const std::filesystem::path& path,

@@ -61,7 +61,7 @@ core::Result<Dataset> load_uji_dataset(const std::filesystem::path& training,
                                        context.options);
   if (!model) return tl::unexpected(model.error());
 
-  Dataset dataset{"uji", false, {}};
+  Dataset dataset{"uji", false, {}, {}};
   for (std::size_t i = 0; i < tests->size(); ++i) {
     sample::FingerprintRow& row = (*tests)[i];
     const auto floor = frames.find_floor(floor_name(row));

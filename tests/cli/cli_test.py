@@ -609,7 +609,7 @@ class Evaluate(CliTest):
             folder.chmod(0o755)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         told = json.loads(self.out.read_text(encoding="utf-8"))
-        self.assertEqual(list(told), ["dataset", "command", "results"])
+        self.assertEqual(list(told), ["dataset", "command", "results", "intervals", "findings"])
         self.assertEqual(told["dataset"], "ilc")
         self.assertEqual({tuple(row) for row in told["results"]}, {tuple(self.KEYS)})
         f1, f2 = self.SITE + "/F1", self.SITE + "/F2"

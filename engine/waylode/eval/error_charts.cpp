@@ -18,7 +18,8 @@ constexpr int kCdfPoints = 200;
 constexpr double kShortest_s = 5.0;
 constexpr std::size_t kFewestInBin = 3;  // A mean of fewer says nothing.
 
-constexpr std::array kStatedProbabilities = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
+constexpr std::array kStatedProbabilities = {0.1, 0.2, 0.3, 0.4,  0.5, 0.6,
+                                             0.7, 0.8, 0.9, 0.95, 0.99};
 
 template <typename Value>
 std::vector<double> sorted_values(const std::vector<PointError>& errors, Value value) {

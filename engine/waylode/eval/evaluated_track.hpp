@@ -32,8 +32,10 @@ struct EvaluatedTrack {
   std::shared_ptr<const site::Site> site;
   std::vector<TruthPoint> truths;
   std::vector<core::Fix> fixes;  ///< Parallel to `truths`.
-  double walked_s = 0.0;         ///< From the first to the last truth.
-  double cpu_s = 0.0;            ///< Spent by the method.
+  /// Every whole second from the first truth to the last, where asked for; not judged.
+  std::vector<core::Fix> path{};
+  double walked_s = 0.0;  ///< From the first to the last truth.
+  double cpu_s = 0.0;     ///< Spent by the method.
 };
 
 }  // namespace waylode::eval

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "waylode/eval/detail/error_charts.hpp"
+#include "waylode/eval/detail/findings_html.hpp"
 #include "waylode/eval/detail/report_data.hpp"
 #include "waylode/eval/detail/report_style.hpp"
 #include "waylode/eval/detail/report_table.hpp"
@@ -175,10 +176,11 @@ std::string report_page(std::string_view title, std::string_view body) {
 }
 
 std::string to_html(const ReportOptions& options, std::span<const EvaluatedTrack> tracks,
-                    std::span<const ResultRow> rows) {
+                    std::span<const ResultRow> rows, const Findings& findings) {
   const std::vector<MethodErrors> methods = detail::errors_by_method(tracks);
   std::string body = header(options) + headline(tracks, rows);
   body += tables(rows, methods) + legend(methods) + "<h2>Errors</h2>\n" + charts(methods);
+  body += detail::findings_html(findings);
   const std::string groups = detail::group_table(rows, methods);
   if (!groups.empty()) body += "<h2>By site and floor</h2>\n" + groups;
   return report_page(options.title, body + drawings(options, tracks, methods));

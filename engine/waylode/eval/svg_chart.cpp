@@ -14,8 +14,6 @@ namespace waylode::eval {
 namespace {
 
 constexpr std::size_t kColourCount = 8;
-constexpr double kWidth_px = 560.0;
-constexpr double kHeight_px = 340.0;
 constexpr double kLeft_px = 54.0;
 constexpr double kRight_px = 542.0;
 constexpr double kTop_px = 16.0;
@@ -56,22 +54,28 @@ std::string text(const char* css, double x, double y, const std::string& content
                      coordinate(y), escape_html(content));
 }
 
+std::string tick_label(const Axis& axis, int tick) {
+  const auto index = static_cast<std::size_t>(tick);
+  if (index < axis.tick_labels.size()) return axis.tick_labels[index];
+  return fmt::format("{:.4g}", axis.min + tick * axis.tick);
+}
+
 std::string axes_svg(const LineChart& chart, const Scale& scale) {
   constexpr double kRounding = 1e-9;  // So that the last tick is not lost to rounding.
   std::string svg;
   for (int i = 0; i <= (chart.x.max - chart.x.min) / chart.x.tick * (1.0 + kRounding); ++i) {
     const double x = chart.x.min + i * chart.x.tick;
     svg += line("grid", scale.x_px(x), kTop_px, scale.x_px(x), kBottom_px);
-    svg += text("tick mid", scale.x_px(x), kBottom_px + 17.0, fmt::format("{:.4g}", x));
+    svg += text("tick mid", scale.x_px(x), kBottom_px + 17.0, tick_label(chart.x, i));
   }
   for (int i = 0; i <= (chart.y.max - chart.y.min) / chart.y.tick * (1.0 + kRounding); ++i) {
     const double y = chart.y.min + i * chart.y.tick;
     svg += line("grid", kLeft_px, scale.y_px(y), kRight_px, scale.y_px(y));
-    svg += text("tick end", kLeft_px - 7.0, scale.y_px(y) + 4.0, fmt::format("{:.4g}", y));
+    svg += text("tick end", kLeft_px - 7.0, scale.y_px(y) + 4.0, tick_label(chart.y, i));
   }
   svg += line("axis", kLeft_px, kBottom_px, kRight_px, kBottom_px);
   svg += line("axis", kLeft_px, kTop_px, kLeft_px, kBottom_px);
-  svg += text("label mid", 0.5 * (kLeft_px + kRight_px), kHeight_px - 10.0, chart.x.label);
+  svg += text("label mid", 0.5 * (kLeft_px + kRight_px), kChartHeight_px - 10.0, chart.x.label);
   const double middle_px = 0.5 * (kTop_px + kBottom_px);
   svg +=
       fmt::format("<text class=\"label mid\" transform=\"translate(15 {}) rotate(-90)\">{}</text>",
@@ -141,9 +145,9 @@ std::string svg_line_chart(const LineChart& drawn) {
   LineChart chart = drawn;
   if (chart.equal_scales) equalise(chart.x, chart.y);
   const Scale scale{chart.x, chart.y};
-  std::string svg =
-      fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" {}>",
-                  kWidth_px, kHeight_px, escape_html(chart.title), hover_attributes(chart));
+  std::string svg = fmt::format(
+      "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" {}>",
+      kChartWidth_px, kChartHeight_px, escape_html(chart.title), hover_attributes(chart));
   svg += axes_svg(chart, scale) + guides_svg(chart, scale);
   // A nested <svg> clips to its own box, without an id to keep unique.
   svg += fmt::format(

@@ -10,6 +10,10 @@
 
 namespace waylode::eval {
 
+/// What svg_line_chart draws into.
+inline constexpr double kChartWidth_px = 560.0;
+inline constexpr double kChartHeight_px = 340.0;
+
 /// One method's line.
 struct Series {
   std::size_t method = 0;
@@ -25,7 +29,8 @@ struct Axis {
   std::string unit;   ///< For the hover readout.
   double max = 1.0;
   double tick = 1.0;
-  double min = 0.0;  ///< A multiple of `tick`, below `max`.
+  double min = 0.0;                        ///< A multiple of `tick`, below `max`.
+  std::vector<std::string> tick_labels{};  ///< Instead of the numbers, from `min` on.
 };
 
 /// An axis over [least, most] widened to whole ticks, about `ticks` of them.
