@@ -3,7 +3,6 @@
 #include "waylode/smoothing/genealogy.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 
 namespace waylode::smoothing {
@@ -99,19 +98,6 @@ std::vector<PlanarEstimate> trace_back(const std::deque<ParticleFilter::Node>& h
     limit = open < first_open ? history.size() : open + (from - open + 1) / 2;
   }
   return estimates;
-}
-
-PlanarEstimate interpolate(const std::vector<PlanarEstimate>& nodes, core::DeviceTime time) {
-  const auto after = std::ranges::lower_bound(nodes, time, {}, &PlanarEstimate::time);
-  if (after == nodes.end()) return nodes.back();
-  if (after == nodes.begin()) return nodes.front();
-  const auto before = std::prev(after);
-  const double span_s = core::to_seconds(after->time - before->time);
-  const double share = span_s > 0.0 ? core::to_seconds(time - before->time) / span_s : 1.0;
-  PlanarEstimate result = share < 0.5 ? *before : *after;
-  result.time = time;
-  result.position_m = (1.0 - share) * before->position_m + share * after->position_m;
-  return result;
 }
 
 }  // namespace waylode::smoothing

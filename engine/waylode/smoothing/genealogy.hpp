@@ -20,9 +20,4 @@ std::vector<fusion::PlanarEstimate> trace_back(
     const std::deque<fusion::ParticleFilter::Node>& history, core::Duration horizon,
     double base_sigma_m, double sigma_scale);
 
-/// The estimate at `time`, linear between the nodes around it; the nearest node's outside their
-/// span. `nodes` is not empty and in order of time.
-fusion::PlanarEstimate interpolate(const std::vector<fusion::PlanarEstimate>& nodes,
-                                   core::DeviceTime time);
-
 }  // namespace waylode::smoothing

@@ -10,6 +10,7 @@
 
 #include "waylode/fusion/testing/particle_model.hpp"
 #include "waylode/fusion/testing/planar_model.hpp"
+#include "waylode/smoothing/whole_track.hpp"
 
 namespace waylode::smoothing {
 namespace {

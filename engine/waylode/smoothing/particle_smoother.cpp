@@ -34,53 +34,18 @@ ParticleSmoother::ParticleSmoother(
     std::shared_ptr<const site::Site> site,
     std::shared_ptr<const std::vector<site::Walkability>> walkability, const Options& options,
     std::optional<core::FloorId> known_floor)
-    : site_(std::move(site)),
+    : WholeTrackSmoother(std::move(site), options.tracker.floor, options.tracker.state,
+                         known_floor),
       walkability_(std::move(walkability)),
-      options_(options),
-      known_floor_(known_floor) {
+      options_(options) {
   options_.tracker.particles.particles = options_.particles;
 }
 
-void ParticleSmoother::add(Event event) {
-  if (const auto* scan = std::get_if<RadioObservation>(&event)) {
-    scans_.push_back({scan->delivered, scan->known_share_ratio});
-  }
-  events_.push_back(std::move(event));
-  solution_.reset();
-}
-
-void ParticleSmoother::hear_unknown(core::DeviceTime delivered) {
-  scans_.push_back({delivered, 0.0});
-}
-
-std::optional<core::Belief> ParticleSmoother::belief_at(core::DeviceTime time) const {
-  const Solution& track = solution();
-  if (track.nodes.empty()) return std::nullopt;
-  const auto after = std::ranges::lower_bound(track.floors, time, {}, &FloorAt::time);
-  const FloorAt& floor = after == track.floors.end() ? track.floors.back() : *after;
-  return fusion::to_floor_frame(*site_, floor.floor, floor.probability,
-                                interpolate(track.nodes, time));
-}
-
-core::FixState ParticleSmoother::state_at(core::DeviceTime time, const core::Belief& belief) const {
-  return fusion::state_of(belief, time, fusion::nearest_scan(scans_, time), options_.tracker.state);
-}
-
-const ParticleSmoother::Solution& ParticleSmoother::solution() const {
-  if (!solution_) {
-    solution_.emplace();
-    solution_->floors =
-        smooth_floors(events_, known_floor_, fusion::levels_of(*site_), options_.tracker.floor);
-    if (!solution_->floors.empty()) solution_->nodes = smooth_path(solution_->floors);
-  }
-  return *solution_;
-}
-
 std::vector<PlanarEstimate> ParticleSmoother::smooth_path(
-    const std::vector<FloorAt>& floors) const {
-  fusion::ParticleTracker tracker(site_, walkability_, options_.tracker, floors.front().floor,
+    const std::vector<Event>& events, const std::vector<FloorAt>& floors) const {
+  fusion::ParticleTracker tracker(site(), walkability_, options_.tracker, floors.front().floor,
                                   /*keep_history=*/true);
-  for (const Event& event : events_) {
+  for (const Event& event : events) {
     const auto next = std::ranges::lower_bound(floors, time_of(event), {}, &FloorAt::time);
     tracker.tell_floor(next == floors.end() ? floors.back().floor : next->floor);
     std::visit([&tracker](const auto& value) { tracker.add(value); }, event);

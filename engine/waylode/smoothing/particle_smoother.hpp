@@ -6,14 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "waylode/core/fix.hpp"
 #include "waylode/fusion/particle_tracker.hpp"
-#include "waylode/smoothing/smoothed_tracker.hpp"
+#include "waylode/smoothing/whole_track.hpp"
 
 namespace waylode::smoothing {
 
-/// A whole track by particles, each instant knowing the future as well.
-class ParticleSmoother {
+/// A whole track by particles: their descent from the end.
+class ParticleSmoother final : public WholeTrackSmoother {
  public:
   struct Options {
     fusion::ParticleTracker::Options tracker;
@@ -28,29 +27,12 @@ class ParticleSmoother {
                    std::shared_ptr<const std::vector<site::Walkability>> walkability,
                    const Options& options, std::optional<core::FloorId> known_floor);
 
-  void add(Event event);
-  /// A scan that the map knows nothing of: around its time, the state is `outside`.
-  void hear_unknown(core::DeviceTime delivered);
-  /// Uses everything added so far. nullopt when no scan has told of a place.
-  std::optional<core::Belief> belief_at(core::DeviceTime time) const;
-  /// For a belief of belief_at(time), by the scan nearest in time.
-  core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
-
  private:
-  struct Solution {
-    std::vector<fusion::PlanarEstimate> nodes;
-    std::vector<FloorAt> floors;  ///< Per scan.
-  };
-  const Solution& solution() const;
-  std::vector<fusion::PlanarEstimate> smooth_path(const std::vector<FloorAt>& floors) const;
+  std::vector<fusion::PlanarEstimate> smooth_path(
+      const std::vector<Event>& events, const std::vector<FloorAt>& floors) const override;
 
-  std::shared_ptr<const site::Site> site_;
   std::shared_ptr<const std::vector<site::Walkability>> walkability_;
   Options options_;
-  std::optional<core::FloorId> known_floor_;
-  std::vector<Event> events_;
-  std::vector<fusion::HeardScan> scans_;
-  mutable std::optional<Solution> solution_;  ///< Cache; emptied by add().
 };
 
 /// The same idea for live use: answers `lag` late, from the history of the causal tracker.

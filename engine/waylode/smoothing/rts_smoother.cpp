@@ -3,8 +3,6 @@
 #include "waylode/smoothing/rts_smoother.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <iterator>
 
 namespace waylode::smoothing {
 
@@ -26,20 +24,6 @@ std::vector<fusion::PlanarState> smooth_backward(
     nodes[i].covariance = 0.5 * (covariance + covariance.transpose());
   }
   return nodes;
-}
-
-fusion::PlanarState interpolate(const std::vector<fusion::PlanarState>& nodes,
-                                core::DeviceTime time) {
-  const auto after = std::ranges::lower_bound(nodes, time, {}, &fusion::PlanarState::time);
-  if (after == nodes.end()) return nodes.back();
-  if (after == nodes.begin()) return nodes.front();
-  const auto before = std::prev(after);
-  const double share =
-      core::to_seconds(time - before->time) / core::to_seconds(after->time - before->time);
-  fusion::PlanarState result = share < 0.5 ? *before : *after;
-  result.time = time;
-  result.mean = (1.0 - share) * before->mean + share * after->mean;
-  return result;
 }
 
 }  // namespace waylode::smoothing

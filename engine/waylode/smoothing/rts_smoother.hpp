@@ -15,9 +15,4 @@ namespace waylode::smoothing {
 std::vector<fusion::PlanarState> smooth_backward(
     const std::deque<fusion::PlanarTransition>& history, const fusion::PlanarState& last);
 
-/// The state at `time`, linear between the nodes around it; the nearest node's outside their span.
-/// `nodes` is not empty and in order of time.
-fusion::PlanarState interpolate(const std::vector<fusion::PlanarState>& nodes,
-                                core::DeviceTime time);
-
 }  // namespace waylode::smoothing

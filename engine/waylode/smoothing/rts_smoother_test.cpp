@@ -181,34 +181,5 @@ TEST(SmoothBackward, StatesItsPositionErrorHonestly) {
   }
 }
 
-PlanarState node_at(double time_s, double x_m, double variance_m2) {
-  PlanarState node;
-  node.time = at_s(time_s);
-  node.mean << x_m, -2.0 * x_m, 0.1 * x_m, 0.0, 0.0, 1.0;
-  node.covariance *= variance_m2;
-  return node;
-}
-
-TEST(Interpolate, IsLinearBetweenNodesWithTheNearestOnesCovariance) {
-  const std::vector<PlanarState> nodes = {node_at(1.0, 10.0, 1.0), node_at(3.0, 20.0, 4.0),
-                                          node_at(4.0, 50.0, 9.0)};
-  const PlanarState early = interpolate(nodes, at_s(1.5));
-  EXPECT_NEAR(early.mean(0), 12.5, 1e-9);
-  EXPECT_NEAR(early.mean(1), -25.0, 1e-9);
-  EXPECT_NEAR(early.mean(2), 1.25, 1e-9);
-  EXPECT_EQ(early.covariance(0, 0), 1.0);
-  EXPECT_EQ(early.time, at_s(1.5));
-  const PlanarState late = interpolate(nodes, at_s(2.75));
-  EXPECT_NEAR(late.mean(0), 18.75, 1e-9);
-  EXPECT_EQ(late.covariance(0, 0), 4.0);
-  EXPECT_NEAR(interpolate(nodes, at_s(3.0)).mean(0), 20.0, 1e-9);
-}
-
-TEST(Interpolate, HoldsTheOutermostNodesOutsideTheirSpan) {
-  const std::vector<PlanarState> nodes = {node_at(1.0, 10.0, 1.0), node_at(3.0, 20.0, 4.0)};
-  EXPECT_EQ(interpolate(nodes, at_s(0.0)).mean(0), 10.0);
-  EXPECT_EQ(interpolate(nodes, at_s(9.0)).mean(0), 20.0);
-}
-
 }  // namespace
 }  // namespace waylode::smoothing
