@@ -33,8 +33,6 @@ struct EvaluateArguments {
   std::optional<std::string> out;
   std::optional<std::string> report;
   std::optional<std::string> chart;
-  double worst = 0.0;
-  std::optional<std::string> worst_dir;
   std::optional<std::string> config;
 };
 

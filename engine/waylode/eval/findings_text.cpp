@@ -69,9 +69,8 @@ std::string details_text(const std::vector<MethodFindings>& methods) {
     cells.push_back(number(changes.worst_s, 1));
     table.push_back(std::move(cells));
   }
-  return "\nStates, whole tracks on the right floor, median area of the 95 % region, mean error "
-         "(m) "
-         "by time, floor changes\n" +
+  return "\nStates, whole tracks on the right floor, median area of the 95 % region, "
+         "mean error (m) by time, floor changes\n" +
          aligned(table);
 }
 
@@ -106,9 +105,8 @@ std::string wrong_starts_text(const Findings& findings) {
                      row.takes_start ? "yes" : "no"});
   }
   return fmt::format(
-             "\nStarted {:g} m off with a stated sigma of {:g} m: less than {:g} m off again, or "
-             "at "
-             "most {:g} m worse than left alone, after {:g} s\n",
+             "\nStarted {:g} m off with a stated sigma of {:g} m: less than {:g} m off again, "
+             "or at most {:g} m worse than left alone, after {:g} s\n",
              rule.offset_m, rule.sigma_m, rule.near_m, rule.allowance_m, rule.judged_at_s) +
          aligned(table);
 }

@@ -32,16 +32,21 @@ class ParticleTracker {
                   const Options& options, std::optional<core::FloorId> known_floor,
                   bool keep_history = false);
 
-  /// Starts from a place instead of the first scan. Steps that ended by then are passed over.
+  /// Starts from a place instead of the first scan; scans may overrule it, the floor as well. Steps
+  /// that ended by then are passed over.
   void start(core::DeviceTime time, core::FloorId floor, const core::Vector2& position_m,
              double sigma_m);
   void add(const observation::MotionDelta& motion);
   /// Hypotheses without a raster are passed over.
   void add(const observation::RadioObservation& observation);
   void add(const observation::VerticalMotion& motion) { floor_filter_.add(motion); }
+  /// A scan that the map knows nothing of: no news of the place, but `outside` until it is known
+  /// again.
   void hear_unknown(core::DeviceTime delivered) { newest_scan_ = HeardScan{delivered, 0.0}; }
 
+  /// nullopt before anything is known. `time` is not before the last event.
   std::optional<core::Belief> belief_at(core::DeviceTime time) const;
+  /// For a belief of belief_at(time), by the newest scan.
   core::FixState state_at(core::DeviceTime time, const core::Belief& belief) const;
 
   /// From outside; then never doubted.
@@ -61,7 +66,7 @@ class ParticleTracker {
   std::optional<core::FloorId> known_floor_;
   FloorFilter floor_filter_;
   ParticleFilter particles_;
-  std::optional<core::DeviceTime> placed_at_;
+  std::optional<core::DeviceTime> placed_at_;  ///< By start().
   std::optional<HeardScan> newest_scan_;
 };
 

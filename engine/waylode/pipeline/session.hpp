@@ -26,7 +26,9 @@ struct StartPose {
 
 struct SessionOptions {
   std::optional<core::FloorId> known_floor;  ///< Told from outside; then never doubted.
-  std::optional<StartPose> start;  ///< For methods that need one; the papers' take it if given.
+  /// For methods that need one. `fused` and the papers' take it if given, as a belief that scans
+  /// may overrule; methods that answer late pass it over.
+  std::optional<StartPose> start;
 };
 
 class Estimator;
