@@ -22,6 +22,17 @@ double plan_penalty(const Ground& ground, const core::Vector2& from_m, const cor
                                          ground.floor_from_site * to_m);
 }
 
+/// How the field along a step fits the way from `from_m` to where the particle is.
+double field_fit(Particle& particle, const observation::MotionDelta& motion, const Ground& ground,
+                 const core::Vector2& from_m) {
+  if (ground.field == nullptr || !motion.level_field_ut) return 0.0;
+  if (!particle.field_bias) particle.field_bias = ground.field->start();
+  const core::Vector2 midway_m = ground.floor_from_site * (0.5 * (from_m + particle.position_m));
+  return ground.field->update(*particle.field_bias,
+                              {motion.level_field_ut->x(), motion.level_field_ut->y()}, midway_m,
+                              (particle.position_m - from_m).norm());
+}
+
 /// Systematic resampling [Kitagawa1996]: a comb of `count` teeth over the weights.
 std::vector<std::uint32_t> comb(const std::vector<double>& weights, std::size_t count,
                                 double first_tooth) {
@@ -160,7 +171,8 @@ void ParticleFilter::add(const observation::MotionDelta& motion, const Ground& g
         std::exp(particle.log_scale) * rng_.normal(motion.length_m, motion.length_sigma_m);
     const core::Vector2 from_m = particle.position_m;
     particle.position_m += length_m * direction(heading_rad);
-    log_weights_[i] += options_.plan_trust * plan_penalty(ground, from_m, particle.position_m);
+    log_weights_[i] += options_.plan_trust * plan_penalty(ground, from_m, particle.position_m) +
+                       field_fit(particle, motion, ground, from_m);
   }
   stands_at_ = motion.end;
   normalise();

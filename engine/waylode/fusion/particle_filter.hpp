@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "waylode/core/geometry.hpp"
@@ -15,17 +16,20 @@
 #include "waylode/core/time.hpp"
 #include "waylode/fusion/path_memory.hpp"
 #include "waylode/fusion/planar_estimate.hpp"
+#include "waylode/magnetic/biased_field_state.hpp"
+#include "waylode/magnetic/field_likelihood.hpp"
 #include "waylode/observation/observation.hpp"
 #include "waylode/site/walkability.hpp"
 
 namespace waylode::fusion {
 
-/// The floor that the particles walk on: how it lies in their plane (the site frame), and where on
-/// it people can be.
+/// The floor that the particles walk on: how it lies in their plane (the site frame), where on it
+/// people can be and what the magnetic field is like.
 struct Ground {
   core::Affine2 floor_from_site;
   core::Affine2 site_from_floor;
-  const site::Walkability* walkability = nullptr;  ///< Null: not known.
+  const site::Walkability* walkability = nullptr;      ///< Null: not known.
+  const magnetic::FieldLikelihood* field = nullptr;    ///< Null: not known.
 };
 
 /// How well a scan fits each place of the ground's floor.
@@ -41,6 +45,7 @@ struct Particle {
   double heading_offset_rad = 0.0;                     ///< Walking direction less PDR heading.
   double log_scale = 0.0;                              ///< Of the step length.
   core::Vector2 radio_bias_m = core::Vector2::Zero();  ///< Where scans point, less where one is.
+  std::optional<magnetic::BiasedFieldState> field_bias;  ///< Of the phone, since its first step.
 
   /// A displacement that PDR tells, as this particle sees it.
   core::Vector2 walked_m(const core::Vector2& pdr_m) const;

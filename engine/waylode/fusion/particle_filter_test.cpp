@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "waylode/fusion/testing/particle_model.hpp"
 #include "waylode/fusion/testing/planar_model.hpp"
@@ -287,6 +288,99 @@ TEST(ParticleFilter, AWallDrawnInErrorDoesNotHoldAWalker) {
     if (i % 3 == 0) filter.add(raster_scan(i, gaussian_raster({0.8 * i, 0.0}, 3.0)), ground);
     EXPECT_LT((filter.at(at_s(i)).position_m - Vector2(0.8 * i, 0.0)).norm(), 3.5) << i;
   }
+}
+
+/// A field whose vertical part rises by 0.5 uT per metre eastwards, surveyed on a fine grid.
+magnetic::FieldLikelihood rising_field() {
+  std::vector<site::MagneticPoint> points;
+  for (int row = -10; row <= 10; ++row) {
+    for (int column = -60; column <= 60; ++column) {
+      const auto x_m = static_cast<float>(0.5 * column);
+      points.push_back({x_m, static_cast<float>(0.5 * row), 20.0F, -40.0F + 0.5F * x_m, 1.0F, 0, 9});
+    }
+  }
+  return {points, {}};
+}
+
+observation::MotionDelta felt(observation::MotionDelta step, double vertical_ut) {
+  step.level_field_ut = Vector2(20.0, vertical_ut);
+  return step;
+}
+
+TEST(ParticleFilter, TheFieldAlongAStepWeighsEachGuessByItsOwnPath) {
+  ParticleFilter::Options options = particle_options();
+  options.resample_ratio = 0.0;
+  options.position_walk_m_per_sqrt_s = 1e-9;
+  const magnetic::FieldLikelihood field = rising_field();
+  Ground ground = open_ground();
+  ground.field = &field;
+  ParticleFilter filter(options, 8, /*keep_history=*/false);
+  filter.start(at_s(0.0), Vector2(2.0, 0.0), 4.0);
+  filter.add(felt(step_of(0.0, 0.5, 0.8, 0.0, 0.0, 0.0), -39.0), ground);
+  const auto expected = [&](std::size_t i) {
+    magnetic::BiasedFieldState bias = field.start();
+    const Vector2 midway_m = filter.particles()[i].position_m - Vector2(0.4, 0.0);
+    return field.update(bias, {20.0, -39.0}, midway_m, 0.8);
+  };
+  double spread = 0.0;
+  for (std::size_t i = 1; i < filter.particles().size(); ++i) {
+    const double ratio = std::log(filter.weights()[i] / filter.weights()[0]);
+    EXPECT_NEAR(ratio, expected(i) - expected(0), 1e-5);
+    spread = std::max(spread, std::abs(ratio));
+    EXPECT_TRUE(filter.particles()[i].field_bias);
+  }
+  EXPECT_GT(spread, 0.1);  // The field did tell them apart.
+}
+
+TEST(ParticleFilter, TheShapeOfTheFieldPlacesAWalkerWhosePhoneHasAConstantError) {
+  // A bump at x = 10 on an even field; the phone reads 6 uT too much everywhere.
+  std::vector<site::MagneticPoint> points;
+  const auto truth_ut = [](double x_m) {
+    return -40.0 + 25.0 * std::exp(-0.5 * std::pow((x_m - 10.0) / 1.5, 2));
+  };
+  for (int column = -60; column <= 80; ++column) {
+    const double x_m = 0.5 * column;
+    points.push_back(
+        {static_cast<float>(x_m), 0.0F, 20.0F, static_cast<float>(truth_ut(x_m)), 1.0F, 0, 9});
+  }
+  const magnetic::FieldLikelihood field(points, {});
+  const auto error_m = [&](const magnetic::FieldLikelihood* known) {
+    ParticleFilter::Options options = particle_options();
+    options.heading_offset_sigma_rad = 0.02;
+    options.position_walk_m_per_sqrt_s = 0.1;
+    Ground ground = open_ground();
+    ground.field = known;
+    ParticleFilter filter(options, 8, /*keep_history=*/false);
+    filter.start(at_s(0.0), Vector2(3.0, 0.0), 2.0);  // 3 m ahead of the truth.
+    for (int i = 0; i < 25; ++i) {
+      const double midway_m = 0.8 * (i + 0.5);
+      filter.add(felt(step_of(0.5 * i, 0.5 * (i + 1), 0.8, 0.0, 0.02), truth_ut(midway_m) + 6.0),
+                 ground);
+    }
+    return std::abs(filter.at(at_s(12.5)).position_m.x() - 20.0);
+  };
+  EXPECT_GT(error_m(nullptr), 2.0);
+  EXPECT_LT(error_m(&field), 1.0);
+}
+
+TEST(ParticleFilter, AFieldThatIsNotFeltOrNotKnownChangesNothing) {
+  const magnetic::FieldLikelihood field = rising_field();
+  Ground known = open_ground();
+  known.field = &field;
+  const auto walk = [](const Ground& ground, bool feels) {
+    ParticleFilter filter(particle_options(), 8, /*keep_history=*/false);
+    filter.start(at_s(0.0), Vector2::Zero(), 2.0);
+    const auto step = step_of(0.0, 0.5, 0.8, 0.0);
+    filter.add(feels ? felt(step, -39.0) : step, ground);
+    return filter;
+  };
+  const ParticleFilter plain = walk(open_ground(), false);
+  for (const ParticleFilter& same : {walk(known, false), walk(open_ground(), true)}) {
+    EXPECT_EQ(same.weights(), plain.weights());
+    EXPECT_EQ(same.particles()[7].position_m, plain.particles()[7].position_m);
+    EXPECT_FALSE(same.particles()[7].field_bias);
+  }
+  EXPECT_NE(walk(known, true).weights(), plain.weights());
 }
 
 TEST(SpatialMedian, IsThePlaceOfLeastMeanDistance) {

@@ -14,12 +14,11 @@ core::Result<void> ParticleTracker::Options::validate() const {
   return {};
 }
 
-ParticleTracker::ParticleTracker(std::shared_ptr<const site::Site> site,
-                                 std::shared_ptr<const std::vector<site::Walkability>> walkability,
+ParticleTracker::ParticleTracker(std::shared_ptr<const site::Site> site, Terrain terrain,
                                  const Options& options, std::optional<core::FloorId> known_floor,
                                  bool keep_history)
     : site_(std::move(site)),
-      walkability_(std::move(walkability)),
+      terrain_(std::move(terrain)),
       options_(options),
       known_floor_(known_floor),
       floor_filter_(options.floor, levels_of(*site_)),
@@ -68,7 +67,8 @@ double ParticleTracker::floor_probability() const {
 Ground ParticleTracker::ground(core::FloorId floor) const {
   const core::Affine2& site_from_floor = site_->floor(floor).site_from_floor;
   return {site_from_floor.inverse(), site_from_floor,
-          walkability_ ? &(*walkability_)[floor.index] : nullptr};
+          terrain_.walkability ? &(*terrain_.walkability)[floor.index] : nullptr,
+          terrain_.fields ? &(*terrain_.fields)[floor.index] : nullptr};
 }
 
 }  // namespace waylode::fusion

@@ -15,6 +15,12 @@
 
 namespace waylode::fusion {
 
+/// What the particles of a site walk on, floor by floor; null where it is not known.
+struct Terrain {
+  std::shared_ptr<const std::vector<site::Walkability>> walkability;
+  std::shared_ptr<const std::vector<magnetic::FieldLikelihood>> fields;
+};
+
 /// The causal tracker: floor by the floor filter, place by particles. One phone, one tracker.
 class ParticleTracker {
  public:
@@ -27,10 +33,8 @@ class ParticleTracker {
     bool operator==(const Options&) const = default;
   };
 
-  ParticleTracker(std::shared_ptr<const site::Site> site,
-                  std::shared_ptr<const std::vector<site::Walkability>> walkability,
-                  const Options& options, std::optional<core::FloorId> known_floor,
-                  bool keep_history = false);
+  ParticleTracker(std::shared_ptr<const site::Site> site, Terrain terrain, const Options& options,
+                  std::optional<core::FloorId> known_floor, bool keep_history = false);
 
   /// Starts from a place instead of the first scan; scans may overrule it, the floor as well. Steps
   /// that ended by then are passed over.
@@ -61,7 +65,7 @@ class ParticleTracker {
   Ground ground(core::FloorId floor) const;
 
   std::shared_ptr<const site::Site> site_;
-  std::shared_ptr<const std::vector<site::Walkability>> walkability_;
+  Terrain terrain_;
   Options options_;
   std::optional<core::FloorId> known_floor_;
   FloorFilter floor_filter_;

@@ -26,7 +26,7 @@ ParticleTracker tracker(std::optional<FloorId> known_floor = std::nullopt) {
   options.particles.jump_probability = 0.01;
   options.floor = testing::fused_options().floor;
   options.state = testing::fused_options().state;
-  return {three_floor_site(), nullptr, options, known_floor};
+  return {three_floor_site(), {}, options, known_floor};
 }
 
 TEST(ParticleTracker, KnowsNothingBeforeAScan) {

@@ -25,9 +25,9 @@ class FieldLikelihood {
     double node_m = 0.5;          ///< Between raster nodes. At least 0.05.
     double kernel_m = 1.0;        ///< Sigma of the weight of a surveyed point by its distance.
     double reach_m = 3.0;         ///< Points farther off than this say nothing. At least node_m.
-    double trust_points = 0.3;    ///< So much kernel weight is half known ground. Positive.
-    double field_sigma_ut = 4.0;  ///< Reading against map at one place, per part. Positive.
-    double bias_sigma_ut = 3.5;   ///< The phone's own constant part on a walk. 0: none.
+    double trust_points = 1.0;    ///< So much kernel weight is half known ground. Positive.
+    double field_sigma_ut = 5.0;  ///< Reading against map at one place, per part. Positive.
+    double bias_sigma_ut = 2.0;   ///< The phone's own constant part on a walk. 0: none.
     double cap_sigmas = 3.0;      ///< A reading farther off counts as this far off. Positive.
     double correlation_m = 2.5;   ///< Readings within this much of walking are one. Positive.
     double weight_ratio = 0.5;    ///< Power of a whole reading. Above 0, at most 1.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "waylode/core/geometry.hpp"
@@ -31,6 +32,9 @@ struct MotionDelta {
   double length_sigma_m = 0.0;     ///< Random part only; a constant scale error remains.
   double heading_sigma_rad = 0.0;  ///< Random part only, drift since the previous delta included.
   StrideFeatures stride{};         ///< Zero where no step was measured.
+  /// The magnetic field over the step, levelled: size of the horizontal part, vertical part (up
+  /// positive). It does not depend on where the phone faces. nullopt: not felt.
+  std::optional<core::Vector2> level_field_ut{};
 
   bool operator==(const MotionDelta&) const = default;
 };

@@ -176,15 +176,15 @@ TEST(ParticleMethods, AreTheirTrackers) {
   const auto model = tiny_model();
   const fusion::ParticleTracker::Options options = tiny_options().tracker_options();
   expect_alike("fused",
-               fusion::ParticleTracker(model->site(), model->walkability(), options, std::nullopt),
+               fusion::ParticleTracker(model->site(), model->terrain(), options, std::nullopt),
                *model, {20.2, 21.0});
   expect_alike("smoothed_lag10",
-               smoothing::FixedLagParticles(model->site(), model->walkability(), options,
+               smoothing::FixedLagParticles(model->site(), model->terrain(), options,
                                             std::nullopt, std::chrono::seconds(10)),
                *model, {10.0, 14.3, 20.0, 21.0});
   expect_alike(
       "smoothed",
-      smoothing::ParticleSmoother(model->site(), model->walkability(),
+      smoothing::ParticleSmoother(model->site(), model->terrain(),
                                   tiny_options().particle_smoothing_options(), std::nullopt),
       *model, {0.0, 7.7, 20.0});
 }

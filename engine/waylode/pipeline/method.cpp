@@ -17,6 +17,13 @@ Recipe with_fusion(FusionPart fusion) {
   return recipe;
 }
 
+/// By particles, who feel the magnetic field as well.
+Recipe by_particles(FusionPart fusion) {
+  Recipe recipe = with_fusion(fusion);
+  recipe.magnetic = MagneticPart::kGuesses;
+  return recipe;
+}
+
 Recipe plain_pdr() {
   Recipe recipe = with_fusion(FusionPart::kDeadReckoning);
   recipe.radio = RadioPart::kNone;
@@ -102,19 +109,19 @@ std::vector<Method> make_methods() {
        "[Zhong2017]",
        "a start, accelerometer, gyroscope, compass"},
       {"fused",
-       with_fusion(FusionPart::kParticles),
+       by_particles(FusionPart::kParticles),
        {},
-       "particle filter of scans, steps and the plan",
+       "particle filter of scans, steps, magnetic field and plan",
        "own",
-       "radio map, Wi-Fi; motion sensors if there"},
-      {"smoothed_lag5", with_fusion(FusionPart::kFixedLag), seconds(5), "fused, answering 5 s late",
+       "radio map, Wi-Fi; plan, magnetic map, motion sensors if there"},
+      {"smoothed_lag5", by_particles(FusionPart::kFixedLag), seconds(5), "fused, answering 5 s late",
        "[Kitagawa1996]", "as fused"},
-      {"smoothed_lag10", with_fusion(FusionPart::kFixedLag), seconds(10),
+      {"smoothed_lag10", by_particles(FusionPart::kFixedLag), seconds(10),
        "fused, answering 10 s late", "[Kitagawa1996]", "as fused"},
-      {"smoothed_lag30", with_fusion(FusionPart::kFixedLag), seconds(30),
+      {"smoothed_lag30", by_particles(FusionPart::kFixedLag), seconds(30),
        "fused, answering 30 s late", "[Kitagawa1996]", "as fused"},
       {"smoothed",
-       with_fusion(FusionPart::kWholeTrack),
+       by_particles(FusionPart::kWholeTrack),
        {},
        "fused, each instant knowing its future",
        "[Kitagawa1996]",
@@ -138,7 +145,7 @@ core::Result<void> check_mixture(const Method& method) {
   const bool feels =
       recipe.fusion == FusionPart::kMagnetic || recipe.fusion == FusionPart::kIntervals ||
       recipe.fusion == FusionPart::kIntervalsUnfiltered || recipe.fusion == FusionPart::kRawTerms;
-  if (recipe.magnetic != MagneticPart::kNone && !feels) {
+  if (recipe.magnetic == MagneticPart::kSequence && !feels) {
     return refuse(
         "magnetic places are used by fusion=magnetic, intervals, intervals_unfiltered and "
         "raw_terms alone");

@@ -31,7 +31,7 @@ struct Model::Shared {
   PositionerPtr near;
   std::optional<radio::PlaceLikelihood> places;
   std::shared_ptr<const std::vector<magnetic::FieldGrid>> fields;
-  std::shared_ptr<const std::vector<site::Walkability>> walkability;
+  fusion::Terrain terrain;
 
   core::Result<const radio::ReferenceMap*> reference_map(const Model& model) {
     if (!references) {
@@ -95,7 +95,7 @@ core::Result<void> Model::prepare(const Method& method) const {
   if (method.recipe.radio != RadioPart::kNone) {
     if (auto made = positioner(method.recipe.radio); !made) return tl::unexpected(made.error());
   }
-  if (method.recipe.magnetic != MagneticPart::kNone) {
+  if (method.recipe.magnetic == MagneticPart::kSequence) {
     if (auto made = fields(); !made) return tl::unexpected(made.error());
   }
   return {};
@@ -143,16 +143,23 @@ core::Result<const radio::PlaceLikelihood*> Model::places() const {
   return &*shared_->places;
 }
 
-std::shared_ptr<const std::vector<site::Walkability>> Model::walkability() const {
+fusion::Terrain Model::terrain() const {
   const std::scoped_lock lock(shared_->mutex);
-  if (!shared_->walkability) {
-    std::vector<site::Walkability> made;
-    for (const site::Floor& floor : site_->floors()) {
-      made.emplace_back(floor.plan, floor.bounds, options_.walkability);
-    }
-    shared_->walkability = std::make_shared<const std::vector<site::Walkability>>(std::move(made));
+  fusion::Terrain& terrain = shared_->terrain;
+  if (terrain.walkability) return terrain;
+  std::vector<site::Walkability> walkability;
+  std::vector<magnetic::FieldLikelihood> fields;
+  const site::MagneticMap map = site_->magnetic_map();
+  for (const site::Floor& floor : site_->floors()) {
+    walkability.emplace_back(floor.plan, floor.bounds, options_.walkability);
+    if (!map.empty()) fields.emplace_back(map.on_floor(floor.id), options_.field.guesses);
   }
-  return shared_->walkability;
+  terrain.walkability = std::make_shared<const std::vector<site::Walkability>>(std::move(walkability));
+  if (!map.empty()) {
+    terrain.fields =
+        std::make_shared<const std::vector<magnetic::FieldLikelihood>>(std::move(fields));
+  }
+  return terrain;
 }
 
 core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> Model::fields() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "waylode/core/result.hpp"
+#include "waylode/fusion/particle_tracker.hpp"
 #include "waylode/magnetic/field_grid.hpp"
 #include "waylode/pipeline/method.hpp"
 #include "waylode/pipeline/options.hpp"
@@ -15,7 +16,6 @@
 #include "waylode/radio/positioner.hpp"
 #include "waylode/radio/reference_map.hpp"
 #include "waylode/site/site.hpp"
-#include "waylode/site/walkability.hpp"
 
 namespace waylode::pipeline {
 
@@ -48,8 +48,8 @@ class Model {
   core::Result<const radio::ReferenceMap*> reference_map() const;
   /// How scans fit every place; lives as long as the model.
   core::Result<const radio::PlaceLikelihood*> places() const;
-  /// Per floor: where people can be, by its plan.
-  std::shared_ptr<const std::vector<site::Walkability>> walkability() const;
+  /// Per floor: where people can be, by its plan, and the magnetic field if it was surveyed.
+  fusion::Terrain terrain() const;
   /// Per floor. kMapMissing without a magnetic map.
   core::Result<std::shared_ptr<const std::vector<magnetic::FieldGrid>>> fields() const;
 

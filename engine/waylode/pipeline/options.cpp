@@ -23,6 +23,7 @@ core::Result<void> Options::validate() const {
                                          regression.validate(),
                                          field.grid.validate(),
                                          field.sequence.validate(),
+                                         field.guesses.validate(),
                                          decision.validate(),
                                          pressure.validate(),
                                          interval.validate(),

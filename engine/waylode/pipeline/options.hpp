@@ -9,6 +9,7 @@
 #include "waylode/fusion/particle_tracker.hpp"
 #include "waylode/fusion/zhou_tracker.hpp"
 #include "waylode/magnetic/field_grid.hpp"
+#include "waylode/magnetic/field_likelihood.hpp"
 #include "waylode/magnetic/sequence_matcher.hpp"
 #include "waylode/pdr/dead_reckoning.hpp"
 #include "waylode/pdr/pressure_climb.hpp"
@@ -37,6 +38,7 @@ struct Options {
     double interval_s = 0.5;  ///< Between two matches; each costs a fraction of a millisecond.
     magnetic::FieldGrid::Options grid;
     magnetic::SequenceMatcher::Options sequence;
+    magnetic::FieldLikelihood::Options guesses;  ///< For trackers by particles.
 
     bool operator==(const FieldMatch&) const = default;
   };

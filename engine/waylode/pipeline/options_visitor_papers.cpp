@@ -213,6 +213,25 @@ void visit_field(Options& options, const Visit& visit) {
               "Of map against phone, without the constant part.");
 }
 
+void visit_guesses(magnetic::FieldLikelihood::Options& guesses, const Visit& visit) {
+  Table("field.guesses", visit)
+      .number("node_m", guesses.node_m, 0.05, 20.0, "Between the nodes of the field's raster.")
+      .number("kernel_m", guesses.kernel_m, kAboveZero, 100.0, "Sigma of the survey's kernel.")
+      .number("reach_m", guesses.reach_m, 0.05, 100.0, "Survey farther off says nothing.")
+      .number("trust_points", guesses.trust_points, kAboveZero, kHuge,
+              "So much kernel weight is half known ground.")
+      .number("field_sigma_ut", guesses.field_sigma_ut, kAboveZero, 1000.0,
+              "Of reading against map at one place, per part.")
+      .number("bias_sigma_ut", guesses.bias_sigma_ut, 0.0, 1000.0,
+              "The phone's own constant part; 0 trusts the phone.")
+      .number("cap_sigmas", guesses.cap_sigmas, kAboveZero, 100.0,
+              "A reading farther off counts as this far off.")
+      .number("correlation_m", guesses.correlation_m, kAboveZero, 100.0,
+              "Readings within this much of walking are one.")
+      .number("weight_ratio", guesses.weight_ratio, kAboveZero, 1.0,
+              "Power on a whole reading's likelihood; less where the map is old.");
+}
+
 void visit_filter(std::string_view name, fusion::StepPositionFilter::Options& filter,
                   const Visit& visit) {
   Table(name, visit)
@@ -353,6 +372,7 @@ void visit_paper_options(Options& options, const Visit& visit) {
   visit_neighbours(options, visit);
   visit_regression(options, visit);
   visit_field(options, visit);
+  visit_guesses(options.field.guesses, visit);
   visit_decision(options, visit);
   visit_interval(options, visit);
   visit_feedback(options, visit);

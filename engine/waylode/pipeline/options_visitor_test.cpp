@@ -68,9 +68,10 @@ Counts expected_radio() {
       {"regression.relevance", member_count<learn::RelevanceVectorRegression::Options>() - 2 +
                                    member_count<learn::SparseBayesFit::Options>() - 1},
       {"regression.scaler", member_count<learn::InputScaler::Options>()},
-      {"field", member_count<Options::FieldMatch>() - 2},  // Less its two components.
+      {"field", member_count<Options::FieldMatch>() - 3},  // Less its three components.
       {"field.grid", member_count<magnetic::FieldGrid::Options>()},
       {"field.sequence", member_count<magnetic::SequenceMatcher::Options>()},
+      {"field.guesses", member_count<magnetic::FieldLikelihood::Options>()},
   };
 }
 

@@ -43,21 +43,23 @@ class ParticleMethod : public Estimator {
 std::unique_ptr<Estimator> make_particle_estimator(const Model& model, const Method& method,
                                                    const SessionOptions& options) {
   const Options& tunables = model.options();
+  fusion::Terrain terrain = model.terrain();
+  if (method.recipe.magnetic == MagneticPart::kNone) terrain.fields = nullptr;
   switch (method.recipe.fusion) {
     case FusionPart::kFixedLag:
       return std::make_unique<ParticleMethod<smoothing::FixedLagParticles>>(
-          model.site(), model.walkability(), tunables.tracker_options(), options.known_floor,
+          model.site(), terrain, tunables.tracker_options(), options.known_floor,
           method.lag);
     case FusionPart::kWholeTrack:
       return std::make_unique<ParticleMethod<smoothing::ParticleSmoother>>(
-          model.site(), model.walkability(), tunables.particle_smoothing_options(),
+          model.site(), terrain, tunables.particle_smoothing_options(),
           options.known_floor);
     default:
       break;
   }
   WAYLODE_ASSERT(method.recipe.fusion == FusionPart::kParticles);
   auto causal = std::make_unique<ParticleMethod<fusion::ParticleTracker>>(
-      model.site(), model.walkability(), tunables.tracker_options(), options.known_floor);
+      model.site(), terrain, tunables.tracker_options(), options.known_floor);
   if (options.start) {
     causal->tracker().start(options.start->time, options.start->floor, options.start->position_m,
                             options.start->sigma_m);

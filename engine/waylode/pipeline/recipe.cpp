@@ -86,6 +86,8 @@ constexpr std::array kParts = {
          [](Recipe& r) { r.magnetic = MagneticPart::kNone; }},
     Part{"magnetic", "sequence", "mean square difference along the way walked", "[Zhou2016]",
          [](Recipe& r) { r.magnetic = MagneticPart::kSequence; }},
+    Part{"magnetic", "guesses", "how the field along each step fits each particle's way", "own",
+         [](Recipe& r) { r.magnetic = MagneticPart::kGuesses; }},
 
     Part{"fusion", "newest_scan", "the newest scan alone", "own",
          [](Recipe& r) { r.fusion = FusionPart::kNewestScan; }},

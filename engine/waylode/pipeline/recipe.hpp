@@ -23,7 +23,7 @@ enum class RadioPart : std::uint8_t {
 };
 
 /// How the magnetic field becomes a place.
-enum class MagneticPart : std::uint8_t { kNone, kSequence };
+enum class MagneticPart : std::uint8_t { kNone, kSequence, kGuesses };
 
 /// What becomes of steps and places.
 enum class FusionPart : std::uint8_t {

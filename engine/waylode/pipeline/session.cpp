@@ -6,6 +6,8 @@
 #include <deque>
 #include <utility>
 
+#include "waylode/magnetic/features.hpp"
+#include "waylode/magnetic/step_field.hpp"
 #include "waylode/pdr/dead_reckoning.hpp"
 #include "waylode/pdr/pressure_climb.hpp"
 #include "waylode/pipeline/estimator.hpp"
@@ -76,7 +78,8 @@ struct Session::Pipeline {
   const radio::PlaceLikelihood* places;                 ///< Null: the method has no use for it.
   radio::DeviceResponse response;                       ///< With `places`.
   std::optional<StrideLearning> learning;               ///< None: the stride has no gains to learn.
-  std::unique_ptr<FieldMatching> field;  ///< None: the method has no use for the field.
+  std::unique_ptr<FieldMatching> field;  ///< None: the method does not match the field.
+  magnetic::StepField step_field;
   std::unique_ptr<Estimator> estimator;
   std::optional<core::DeviceTime> last_scan;
   std::optional<core::DeviceTime> quiet_since;  ///< No scan, and no try with Bluetooth alone.
@@ -115,9 +118,20 @@ struct Session::Pipeline {
     hear(assembler.assemble_bluetooth(advertisement.time));
   }
 
+  void feel(const sample::Sample& sample) {
+    const auto* field_sample = std::get_if<sample::MagnetometerSample>(&sample);
+    if (field_sample == nullptr || !reckoning.up_in_device()) return;
+    const auto level = magnetic::level_field(field_sample->field_ut, *reckoning.up_in_device());
+    if (level) step_field.add(field_sample->time, *level);
+  }
+
   void move(const sample::Sample& sample) {
-    const auto motion = reckoning.add(sample);
-    if (motion) estimator->add(*motion);
+    feel(sample);
+    auto motion = reckoning.add(sample);
+    if (motion) {
+      motion->level_field_ut = step_field.mean_ut(motion->begin, motion->end);
+      estimator->add(*motion);
+    }
     if (motion && learning) {
       if (const auto gains = learning->add(*motion)) reckoning.set_stride_gains(*gains);
     }
@@ -161,7 +175,7 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
     places = *made;
   }
   std::unique_ptr<FieldMatching> field;
-  if (recipe.magnetic != MagneticPart::kNone) {
+  if (recipe.magnetic == MagneticPart::kSequence) {
     auto fields = model->fields();
     if (!fields) return tl::unexpected(fields.error());
     field = std::make_unique<FieldMatching>(model->site(), *std::move(fields), tunables.field);
@@ -180,7 +194,7 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
       radio::ScanAssembler(tunables.scan, drops_hotspots ? &model->hotspots() : nullptr),
       HeardScans(*model), radio::WknnEstimator(model->matcher(), tunables.wknn),
       std::move(positioner), places, radio::DeviceResponse(tunables.response), std::move(learning),
-      std::move(field), make_estimator(*model, method, options), std::nullopt, std::nullopt});
+      std::move(field), {}, make_estimator(*model, method, options), std::nullopt, std::nullopt});
   return Session(std::move(pipeline));
 }
 

@@ -30,20 +30,19 @@ core::Result<void> ParticleSmoother::Options::validate() const {
   return tracker.validate();
 }
 
-ParticleSmoother::ParticleSmoother(
-    std::shared_ptr<const site::Site> site,
-    std::shared_ptr<const std::vector<site::Walkability>> walkability, const Options& options,
-    std::optional<core::FloorId> known_floor)
+ParticleSmoother::ParticleSmoother(std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
+                                   const Options& options,
+                                   std::optional<core::FloorId> known_floor)
     : WholeTrackSmoother(std::move(site), options.tracker.floor, options.tracker.state,
                          known_floor),
-      walkability_(std::move(walkability)),
+      terrain_(std::move(terrain)),
       options_(options) {
   options_.tracker.particles.particles = options_.particles;
 }
 
 std::vector<PlanarEstimate> ParticleSmoother::smooth_path(
     const std::vector<Event>& events, const std::vector<FloorAt>& floors) const {
-  fusion::ParticleTracker tracker(site(), walkability_, options_.tracker, floors.front().floor,
+  fusion::ParticleTracker tracker(site(), terrain_, options_.tracker, floors.front().floor,
                                   /*keep_history=*/true);
   for (const Event& event : events) {
     const auto next = std::ranges::lower_bound(floors, time_of(event), {}, &FloorAt::time);
@@ -56,12 +55,11 @@ std::vector<PlanarEstimate> ParticleSmoother::smooth_path(
 }
 
 FixedLagParticles::FixedLagParticles(
-    std::shared_ptr<const site::Site> site,
-    std::shared_ptr<const std::vector<site::Walkability>> walkability,
+    std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
     const fusion::ParticleTracker::Options& options, std::optional<core::FloorId> known_floor,
     core::Duration lag)
     : site_(site),
-      tracker_(std::move(site), std::move(walkability), options, known_floor,
+      tracker_(std::move(site), std::move(terrain), options, known_floor,
                /*keep_history=*/true),
       options_(options),
       lag_(lag) {}

@@ -23,23 +23,21 @@ class ParticleSmoother final : public WholeTrackSmoother {
     bool operator==(const Options&) const = default;
   };
 
-  ParticleSmoother(std::shared_ptr<const site::Site> site,
-                   std::shared_ptr<const std::vector<site::Walkability>> walkability,
+  ParticleSmoother(std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
                    const Options& options, std::optional<core::FloorId> known_floor);
 
  private:
   std::vector<fusion::PlanarEstimate> smooth_path(
       const std::vector<Event>& events, const std::vector<FloorAt>& floors) const override;
 
-  std::shared_ptr<const std::vector<site::Walkability>> walkability_;
+  fusion::Terrain terrain_;
   Options options_;
 };
 
 /// The same idea for live use: answers `lag` late, from the history of the causal tracker.
 class FixedLagParticles {
  public:
-  FixedLagParticles(std::shared_ptr<const site::Site> site,
-                    std::shared_ptr<const std::vector<site::Walkability>> walkability,
+  FixedLagParticles(std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
                     const fusion::ParticleTracker::Options& options,
                     std::optional<core::FloorId> known_floor, core::Duration lag);
 

@@ -61,11 +61,11 @@ std::vector<Event> noisy_walk(int seconds, std::uint64_t seed) {
 }
 
 FixedLagParticles lagging(core::Duration lag, std::optional<FloorId> known_floor = kKnownFloor) {
-  return {three_floor_site(), nullptr, tracker_options(), known_floor, lag};
+  return {three_floor_site(), {}, tracker_options(), known_floor, lag};
 }
 
 TEST(FixedLagParticles, EqualTheWholeTrackWhenTheLagCoversIt) {
-  ParticleSmoother whole(three_floor_site(), nullptr, smoother_options(), kKnownFloor);
+  ParticleSmoother whole(three_floor_site(), {}, smoother_options(), kKnownFloor);
   FixedLagParticles late = lagging(std::chrono::seconds(100));
   for (const Event& event : noisy_walk(40, 4)) {
     whole.add(event);
@@ -78,7 +78,7 @@ TEST(FixedLagParticles, EqualTheWholeTrackWhenTheLagCoversIt) {
 }
 
 TEST(FixedLagParticles, EqualTheCausalTrackerForTheNewestInstant) {
-  fusion::ParticleTracker causal(three_floor_site(), nullptr, tracker_options(), std::nullopt);
+  fusion::ParticleTracker causal(three_floor_site(), {}, tracker_options(), std::nullopt);
   FixedLagParticles late = lagging(std::chrono::seconds(10), std::nullopt);
   double newest_s = 0.0;
   for (const Event& event : noisy_walk(30, 5)) {
@@ -153,7 +153,7 @@ TEST(FixedLagParticles, JudgeEachInstantByTheScanNearestInTime) {
 }
 
 TEST(ParticleSmoother, HasNoBeliefWithoutAScanOfItsFloor) {
-  ParticleSmoother smoother(three_floor_site(), nullptr, smoother_options(), FloorId{1});
+  ParticleSmoother smoother(three_floor_site(), {}, smoother_options(), FloorId{1});
   EXPECT_EQ(smoother.belief_at(at_s(0.0)), std::nullopt);
   smoother.add(step_of(0.0, 0.5, 0.7, 0.0));
   EXPECT_EQ(smoother.belief_at(at_s(0.5)), std::nullopt);
@@ -164,7 +164,7 @@ TEST(ParticleSmoother, HasNoBeliefWithoutAScanOfItsFloor) {
 }
 
 TEST(ParticleSmoother, KnowsTheWayToTheFirstScan) {
-  ParticleSmoother smoother(three_floor_site(), nullptr, smoother_options(), kKnownFloor);
+  ParticleSmoother smoother(three_floor_site(), {}, smoother_options(), kKnownFloor);
   for (int i = 0; i < 10; ++i) smoother.add(step_of(0.5 * i, 0.5 * (i + 1), 0.7, 0.0));
   for (int i = 0; i < 20; ++i) smoother.add(scan_at(5.0 + 0.1 * i, {20.0, 10.0}));
   // Ten steps of 0.7 m east end at the scans' place; five of them were yet to come at 2.5 s.
@@ -176,7 +176,7 @@ TEST(ParticleSmoother, KnowsTheWayToTheFirstScan) {
 
 TEST(ParticleSmoother, FollowsFloorsThroughTheSiteFrame) {
   // Floor 1 lies 10 m west and turned by a right angle: the same place, other coordinates.
-  ParticleSmoother smoother(three_floor_site(), nullptr, smoother_options(), std::nullopt);
+  ParticleSmoother smoother(three_floor_site(), {}, smoother_options(), std::nullopt);
   const auto site = three_floor_site();
   const Vector2 place_m(12.0, 7.0);
   for (int i = 0; i < 20; ++i) {
