@@ -28,8 +28,8 @@ namespace waylode::fusion {
 struct Ground {
   core::Affine2 floor_from_site;
   core::Affine2 site_from_floor;
-  const site::Walkability* walkability = nullptr;      ///< Null: not known.
-  const magnetic::FieldLikelihood* field = nullptr;    ///< Null: not known.
+  const site::Walkability* walkability = nullptr;    ///< Null: not known.
+  const magnetic::FieldLikelihood* field = nullptr;  ///< Null: not known.
 };
 
 /// How well a scan fits each place of the ground's floor.
@@ -45,7 +45,7 @@ struct Particle {
   double heading_offset_rad = 0.0;                     ///< Walking direction less PDR heading.
   double log_scale = 0.0;                              ///< Of the step length.
   core::Vector2 radio_bias_m = core::Vector2::Zero();  ///< Where scans point, less where one is.
-  std::optional<magnetic::BiasedFieldState> field_bias;  ///< Of the phone, since its first step.
+  std::optional<magnetic::BiasedFieldState> field_bias{};  ///< Of the phone, since its first step.
 
   /// A displacement that PDR tells, as this particle sees it.
   core::Vector2 walked_m(const core::Vector2& pdr_m) const;

@@ -179,8 +179,8 @@ TEST(ParticleMethods, AreTheirTrackers) {
                fusion::ParticleTracker(model->site(), model->terrain(), options, std::nullopt),
                *model, {20.2, 21.0});
   expect_alike("smoothed_lag10",
-               smoothing::FixedLagParticles(model->site(), model->terrain(), options,
-                                            std::nullopt, std::chrono::seconds(10)),
+               smoothing::FixedLagParticles(model->site(), model->terrain(), options, std::nullopt,
+                                            std::chrono::seconds(10)),
                *model, {10.0, 14.3, 20.0, 21.0});
   expect_alike(
       "smoothed",

@@ -150,11 +150,14 @@ fusion::Terrain Model::terrain() const {
   std::vector<site::Walkability> walkability;
   std::vector<magnetic::FieldLikelihood> fields;
   const site::MagneticMap map = site_->magnetic_map();
-  for (const site::Floor& floor : site_->floors()) {
+  for (std::size_t i = 0; i < site_->floors().size(); ++i) {
+    const site::Floor& floor = site_->floors()[i];
     walkability.emplace_back(floor.plan, floor.bounds, options_.walkability);
-    if (!map.empty()) fields.emplace_back(map.on_floor(floor.id), options_.field.guesses);
+    const core::FloorId id{static_cast<std::uint16_t>(i)};
+    if (!map.empty()) fields.emplace_back(map.on_floor(id), options_.field.guesses);
   }
-  terrain.walkability = std::make_shared<const std::vector<site::Walkability>>(std::move(walkability));
+  terrain.walkability =
+      std::make_shared<const std::vector<site::Walkability>>(std::move(walkability));
   if (!map.empty()) {
     terrain.fields =
         std::make_shared<const std::vector<magnetic::FieldLikelihood>>(std::move(fields));

@@ -48,12 +48,10 @@ std::unique_ptr<Estimator> make_particle_estimator(const Model& model, const Met
   switch (method.recipe.fusion) {
     case FusionPart::kFixedLag:
       return std::make_unique<ParticleMethod<smoothing::FixedLagParticles>>(
-          model.site(), terrain, tunables.tracker_options(), options.known_floor,
-          method.lag);
+          model.site(), terrain, tunables.tracker_options(), options.known_floor, method.lag);
     case FusionPart::kWholeTrack:
       return std::make_unique<ParticleMethod<smoothing::ParticleSmoother>>(
-          model.site(), terrain, tunables.particle_smoothing_options(),
-          options.known_floor);
+          model.site(), terrain, tunables.particle_smoothing_options(), options.known_floor);
     default:
       break;
   }

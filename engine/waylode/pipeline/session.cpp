@@ -189,12 +189,23 @@ core::Result<Session> Session::create(std::shared_ptr<const Model> model, const 
   // [Wu2019] 1.1 keeps phones' hotspots out of every distance; our own matching bears them.
   const bool drops_hotspots = positioner && recipe.radio != RadioPart::kWknn;
   auto pipeline = std::unique_ptr<Pipeline>(new Pipeline{
-      model, method, options, pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
+      model,
+      method,
+      options,
+      pdr::DeadReckoning(with_parts(tunables.pdr, recipe)),
       pdr::PressureClimb(tunables.pressure),
       radio::ScanAssembler(tunables.scan, drops_hotspots ? &model->hotspots() : nullptr),
-      HeardScans(*model), radio::WknnEstimator(model->matcher(), tunables.wknn),
-      std::move(positioner), places, radio::DeviceResponse(tunables.response), std::move(learning),
-      std::move(field), {}, make_estimator(*model, method, options), std::nullopt, std::nullopt});
+      HeardScans(*model),
+      radio::WknnEstimator(model->matcher(), tunables.wknn),
+      std::move(positioner),
+      places,
+      radio::DeviceResponse(tunables.response),
+      std::move(learning),
+      std::move(field),
+      {},
+      make_estimator(*model, method, options),
+      std::nullopt,
+      std::nullopt});
   return Session(std::move(pipeline));
 }
 

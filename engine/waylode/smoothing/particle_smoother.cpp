@@ -31,8 +31,7 @@ core::Result<void> ParticleSmoother::Options::validate() const {
 }
 
 ParticleSmoother::ParticleSmoother(std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
-                                   const Options& options,
-                                   std::optional<core::FloorId> known_floor)
+                                   const Options& options, std::optional<core::FloorId> known_floor)
     : WholeTrackSmoother(std::move(site), options.tracker.floor, options.tracker.state,
                          known_floor),
       terrain_(std::move(terrain)),
@@ -54,10 +53,10 @@ std::vector<PlanarEstimate> ParticleSmoother::smooth_path(
                     options_.tracker.particles.sigma_scale);
 }
 
-FixedLagParticles::FixedLagParticles(
-    std::shared_ptr<const site::Site> site, fusion::Terrain terrain,
-    const fusion::ParticleTracker::Options& options, std::optional<core::FloorId> known_floor,
-    core::Duration lag)
+FixedLagParticles::FixedLagParticles(std::shared_ptr<const site::Site> site,
+                                     fusion::Terrain terrain,
+                                     const fusion::ParticleTracker::Options& options,
+                                     std::optional<core::FloorId> known_floor, core::Duration lag)
     : site_(site),
       tracker_(std::move(site), std::move(terrain), options, known_floor,
                /*keep_history=*/true),
